@@ -1,8 +1,16 @@
 #include "viewer/animation.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace tureen::viewer {
+
+void Animation::begin(CameraPathData data) {
+  path = CameraPath(std::move(data));
+  seconds = 0;
+  selected = -1;
+  plays = false;
+}
 
 void Animation::toggle() {
   plays = !plays && !path.empty();

@@ -22,6 +22,8 @@ struct Animation {
   double frames_per_second = 30;
   glm::ivec2 size{1280, 720};
 
+  /// Replaces the path, at its beginning.
+  void begin(CameraPathData data);
   /// Starts playback, from the beginning if it is at the end; or stops it.
   void toggle();
   /// Advances playback by seconds. A path without a loop stops at its end.

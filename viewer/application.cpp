@@ -13,6 +13,7 @@
 #include "runtime/gl/state.hpp"
 #include "runtime/passes/targets.hpp"
 #include "viewer/gui/colors.hpp"
+#include "viewer/gui/item_places.hpp"
 #include "viewer/panels.hpp"
 #include "viewer/shortcuts.hpp"
 
@@ -58,6 +59,8 @@ std::vector<Event> take_frame(std::vector<Event>& pending) {
     const auto* button = std::get_if<ButtonChanged>(&pending[count]);
     if (key && !keys.insert(key->key).second) break;
     if (button && !buttons.insert(button->button).second) break;
+    // The control may move until the next frame.
+    if (count > 0 && std::holds_alternative<ControlClicked>(pending[count])) break;
     if (std::holds_alternative<WindowScreenshot>(pending[count])) {
       ++count;
       break;
@@ -73,6 +76,32 @@ std::vector<Event> take_frame(std::vector<Event>& pending) {
 double density(const Window& window) {
   if (window.pixels().x < 1 || window.size().x < 1) return 1;  // minimised
   return std::max(double(window.pixels().x) / window.size().x, 1.0);
+}
+
+/// An event for a frame of its own: Dear ImGui finds out between them what is under the pointer.
+std::vector<Event> take_first(std::vector<Event>& events) {
+  std::vector<Event> first{std::move(events.front())};
+  events.erase(events.begin());
+  return first;
+}
+
+/// If a click is next, takes it and returns what a pointer does. Throws UsageError if no control in
+/// sight has the name.
+std::vector<Event> take_click(std::vector<Event>& pending) {
+  const auto* const click = pending.empty() ? nullptr : std::get_if<ControlClicked>(&pending[0]);
+  if (!click) return {};
+  const std::optional<glm::dvec2> place = item_place(click->name);
+  if (!place)
+    throw UsageError("the session clicks \"" + click->name + "\", and no such control is in sight",
+                     "add an \"await\" before it, open its tab and its section, or scroll to it");
+  const auto [x, y] = click->by;
+  std::vector<Event> result{PointerMoved{place->x, place->y}, ButtonChanged{Button::left, true}};
+  for (const double part : {0.25, 0.5, 0.75, 1.0})
+    if (x != 0 || y != 0)
+      result.emplace_back(PointerMoved{place->x + part * x, place->y + part * y});
+  result.emplace_back(ButtonChanged{Button::left, false});
+  pending.erase(pending.begin());
+  return result;
 }
 
 With held_with(const NavigationInput& input) {
@@ -158,7 +187,7 @@ std::vector<std::string> Application::errors() const {
 
 bool Application::at_rest() const {
   return worker_.idle() && writer_.idle() && tracer_.idle() && !state_.animation.plays &&
-         pending_.empty() && state_.requests.empty() && frames_wanted_ <= 0 &&
+         pending_.empty() && clicks_.empty() && state_.requests.empty() && frames_wanted_ <= 0 &&
          !state_.controls.moving();
 }
 
@@ -196,11 +225,13 @@ std::vector<Event> Application::gather() {
   for (const Event& event : window_.events(0))
     if (std::holds_alternative<CloseAsked>(event))
       quit_ = true;  // other events come from the session
+  if (!clicks_.empty()) return take_first(clicks_);
   if (pending_.empty()) {
     if (replay_->finished()) quit_ = true;
     pending_ = replay_->next(at_rest());
   }
-  return take_frame(pending_);
+  clicks_ = take_click(pending_);
+  return clicks_.empty() ? take_frame(pending_) : take_first(clicks_);
 }
 
 void Application::frame() {
@@ -364,6 +395,11 @@ void Application::draw_scene() {
   // Colours until the debug view is prepared.
   const DebugViewChoice debug_view = stage.debug_views ? state_.debug_view : DebugViewChoice{};
   const bool may_smooth = smooths();
+  const glm::vec4 background(background_of(state_.source), state_.shows_checks ? 0.0f : 1.0f);
+  if (std::exchange(drawn_background_, background) != background || !image_is_current_) {
+    stage.renderer.set_background(background);
+    image_is_current_ = false;
+  }
   // Without smoothing, the image at rest gives way to the frame.
   const bool same = image_is_current_ && drawn_debug_view_ == debug_view &&
                     camera == drawn_camera_ && (may_smooth || !drawn_smooth_);
@@ -393,6 +429,9 @@ void Application::draw_scene() {
   if (!image_is_current_ || refines() || (traces() && !same))
     frames_wanted_ = std::max(frames_wanted_, 1);
   stage.renderer.blit_to(0);
+  constexpr double check_points = 8;
+  if (state_.shows_checks)
+    checks_.draw(window_.context().capabilities().api, state_.pixels, check_points * gui_density_);
 }
 
 void Application::save_window_image(const std::string& name) {

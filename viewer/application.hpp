@@ -15,6 +15,7 @@
 #include "viewer/files/file_watch.hpp"
 #include "viewer/files/session.hpp"
 #include "viewer/frame_clock.hpp"
+#include "viewer/gui/checks.hpp"
 #include "viewer/gui/gui.hpp"
 #include "viewer/gui/window.hpp"
 #include "viewer/input/double_click.hpp"
@@ -115,6 +116,7 @@ class Application {
   void carry_out(const AddKeyframe& request);
   void carry_out(const ShowKeyframe& request);
   void carry_out(const MakeTurntable& request);
+  void carry_out(const FlyAlongCameras& request);
   void carry_out(const SavePath& request);
   void carry_out(const LoadPath& request);
   void carry_out(const WriteAnimation& request);
@@ -122,6 +124,7 @@ class Application {
   void carry_out(const CancelJob& request);
   void carry_out(const StartTraining& request);
   void carry_out(const StopTraining& request);
+  void carry_out(const MeasureTraining& request);
   void carry_out(const CopyTrainingCommand& request);
   void carry_out(const StopWriting& request);
   void carry_out(const Quit& request);
@@ -218,12 +221,13 @@ class Application {
   State state_;  // its GL objects are destroyed before the window
   std::unique_ptr<Gui> gui_;
   double gui_scale_ = 1, gui_density_ = 1;
+  Checks checks_;
   FrameClock frame_clock_;
   NavigationInput navigation_;
   DoubleClick double_click_;
   std::optional<Session> recorded_;
-  std::vector<std::filesystem::path> promised_;  // paths of images that are being written
-  std::vector<Event> pending_;
+  std::vector<std::filesystem::path> promised_;     // paths of images that are being written
+  std::vector<Event> pending_, clicks_;             // of a session's click, a frame for each
   std::vector<FileWatch> watches_;                  // of the scene's files
   std::vector<std::filesystem::path> shown_paths_;  // of show_files_of_scene()
   std::optional<Loading> loading_;
@@ -241,6 +245,7 @@ class Application {
   /// Whether a worker prepares the scene again with the options state_.wanted.
   bool preparing_drawing_ = false;
   Camera drawn_camera_;
+  glm::vec4 drawn_background_{0.0f};
   bool drawn_smooth_ = false;  // whether the image may have become the image at rest
   DebugViewChoice drawn_debug_view_;
   bool quit_ = false, vsync_ = false;

@@ -52,7 +52,7 @@ void Application::compare_when_needed() {
   auto drawn = std::make_shared<Image8>(renderer.read_color());
   image_is_current_ = false;  // the renderer now has the photograph's view
   auto held = std::make_shared<Image8>(photograph->image);
-  const glm::vec3 background = state_.source.scene->info.background;
+  const glm::vec3 background = background_of(state_.source);
   const auto work = [this, drawn, held, background, ticket](const Worker::Progress&) {
     const ImageF ours = composited(to_float(*drawn), background);
     const ImageF theirs = composited(to_float(*held), background);

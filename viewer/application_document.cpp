@@ -52,6 +52,7 @@ void Application::follow_document() {
   SceneSource& source = state_.source;
   update_subject(source);
   state_.controls.set_subject(source.subject);
+  state_.controls.set_first_view(first_view_of(source));
   if (!same_axis(state_.controls.up(), source.document.up))
     state_.controls.set_up(source.document.up);
   if (why_not(state_.debug_view.what, source)) state_.debug_view.what = DebugView::color;

@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "base/memory_budget.hpp"
 #include "base/output.hpp"
+#include "camera/recorded_path.hpp"
 #include "formats/dataset/camera_file.hpp"
 #include "runtime/passes/accumulation.hpp"
 #include "viewer/application.hpp"
@@ -142,13 +143,20 @@ void Application::carry_out(const ShowKeyframe& request) {
 
 void Application::carry_out(const MakeTurntable&) {
   if (!has_scene()) return;
-  state_.animation.path =
-      CameraPath(turntable({.first = state_.controls.camera(state_.pixels.x, state_.pixels.y),
-                            .distance = state_.controls.distance(),
-                            .up = state_.controls.up(),
-                            .seconds = state_.animation.turn_seconds}));
-  state_.animation.seconds = 0;
-  state_.animation.selected = -1;
+  state_.animation.begin(
+      turntable({.first = state_.controls.camera(state_.pixels.x, state_.pixels.y),
+                 .distance = state_.controls.distance(),
+                 .up = state_.controls.up(),
+                 .seconds = state_.animation.turn_seconds}));
+}
+
+void Application::carry_out(const FlyAlongCameras&) {
+  std::vector<Camera> cameras;
+  for (const Camera* camera : state_.recorded_cameras()) cameras.push_back(*camera);
+  CameraPathData path = path_along(cameras);
+  if (path.keyframes.empty()) return state_.note("The scene has no recorded cameras.");
+  state_.animation.begin(std::move(path));
+  state_.animation.toggle();
 }
 
 void Application::carry_out(const SavePath& request) {
@@ -159,9 +167,7 @@ void Application::carry_out(const SavePath& request) {
 }
 
 void Application::carry_out(const LoadPath& request) {
-  state_.animation.path = CameraPath(read_path(request.file));
-  state_.animation.seconds = 0;
-  state_.animation.selected = -1;
+  state_.animation.begin(read_path(request.file));
   state_.animation.file = request.file.string();
 }
 

@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "camera/capture.hpp"
 #include "viewer/application.hpp"
 #include "viewer/names.hpp"
 
@@ -208,9 +207,7 @@ void Application::show_opened(SceneSource source, Stage stage) {
   state_.controls = CameraControls(state_.source.subject);
   lay_out(window_.size(), window_.pixels());  // with the panels of a scene
   state_.recorded = -1;
-  const Scene& scene = *state_.source.scene;
-  state_.controls.set_first_view(
-      first_view_of(scene.first_view, scene.cameras, state_.source.up.axis));
+  state_.controls.set_first_view(first_view_of(state_.source));
   state_.controls.reset();  // for this viewport
   state_.controls.arrive();
   follow_document();

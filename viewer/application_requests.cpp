@@ -77,10 +77,13 @@ void Application::carry_out(const OpenPhotographs& request) {
     auto dataset = std::make_shared<Dataset>(read_dataset(path, {.progress = progress}));
     return Worker::Completion([this, path, dataset] {
       state_.messages.dismiss_opening();
+      FullPhotographs full;
+      if (!dataset->train.empty()) full = full_photographs(dataset->train);
       Photographs photographs{.path = path,
                               .list = std::move(dataset->train),
                               .train_count = 0,
                               .notes = described(dataset->remarks),
+                              .full = std::move(full),
                               .stay_is_noted = false};
       photographs.train_count = photographs.list.size();
       std::move(dataset->test.begin(), dataset->test.end(), std::back_inserter(photographs.list));

@@ -36,6 +36,18 @@ void Application::carry_out(const StopTraining&) {
   training.is_stopped = true;
 }
 
+void Application::carry_out(const MeasureTraining&) {
+  if (state_.training_seconds) return;
+  const auto work = [this](const Worker::Progress&) {
+    const double seconds = measured_seconds_per_pixel(0);
+    return Worker::Completion([this, seconds] { state_.training_seconds = seconds; });
+  };
+  worker_.start({.kind = JobKind::forecast,
+                 .what = "measuring the speed of training",
+                 .work = work,
+                 .failed = [](const std::string&) {}});  // then there is no forecast
+}
+
 void Application::carry_out(const CopyTrainingCommand&) {
   if (!state_.photographs) return;
   const fs::path& dataset = state_.photographs->path;

@@ -38,6 +38,7 @@ void times_panel(State& state, const FrameClock& clock);
 void window_panel(State& state);
 
 void traced_overlay(const State& state);
+void gizmo_overlay(State& state);
 void photograph_overlay(State& state);
 void status_overlay(const State& state);
 void progress_overlay(State& state);

@@ -188,6 +188,8 @@ std::string render_command(const SceneSource& scene, const DrawingChoice& choice
     command += " --eye " + list_of(eye) + " --target " + list_of(eye - reach * axes[2]) + " --up " +
                list_of(axes[1]) + fmt::format(" --fov {}", fov);
   }
+  if (const glm::vec3 color = background_of(scene); color != scene.scene->info.background)
+    command += " --background " + list_of(color);
   command += fmt::format(" --size {}x{}", camera.width, camera.height);
   if (debug_view.what != DebugView::color)
     command += " --debug-view " + shown(debug_view);

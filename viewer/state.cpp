@@ -19,6 +19,11 @@ std::vector<const Camera*> State::recorded_cameras() const {
   return cameras;
 }
 
+const DocumentLayer& State::selected_layer() const {
+  const DocumentLayer* const layer = find_layer(source.document, layer_editing.selected);
+  return layer ? *layer : source.document.layers.front();
+}
+
 SceneSource State::drawn_source() const {
   SceneSource result = source;
   for (const RefusedLayer& refused : stage->refused)

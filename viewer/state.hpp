@@ -21,6 +21,7 @@
 #include "viewer/files/followed_training.hpp"
 #include "viewer/files/settings.hpp"
 #include "viewer/frame_clock.hpp"
+#include "viewer/gizmo.hpp"
 #include "viewer/messages.hpp"
 #include "viewer/scene/stage.hpp"
 #include "viewer/training_command.hpp"
@@ -92,6 +93,8 @@ struct ShowKeyframe {
   std::size_t index = 0;
 };
 struct MakeTurntable {};
+/// Replaces the path by a flight along the recorded cameras.
+struct FlyAlongCameras {};
 struct SavePath {
   std::filesystem::path file;
 };
@@ -115,6 +118,8 @@ struct StartTraining {
 };
 /// Ends this program. Its checkpoint stays.
 struct StopTraining {};
+/// Measures the speed of training on this computer, for forecasts.
+struct MeasureTraining {};
 /// Copies the command that trains a scene from the photographs to the clipboard; that of the
 /// training in progress if it has these photographs.
 struct CopyTrainingCommand {};
@@ -132,8 +137,9 @@ using Request =
     std::variant<OpenPath, AddPaths, Perform, Undo, Redo, GoToStep, SaveScene, SaveSceneAs,
                  OpenPhotographs, CloseDataset, ReloadScene, ChooseDrawing, ShowRecorded, FocusAt,
                  TakeImage, SavePage, CopyCommand, ToggleFullscreen, AddKeyframe, ShowKeyframe,
-                 MakeTurntable, SavePath, LoadPath, WriteAnimation, TellTraining, CancelJob,
-                 StartTraining, StopTraining, CopyTrainingCommand, StopWriting, Quit>;
+                 MakeTurntable, FlyAlongCameras, SavePath, LoadPath, WriteAnimation, TellTraining,
+                 CancelJob, StartTraining, StopTraining, MeasureTraining, CopyTrainingCommand,
+                 StopWriting, Quit>;
 
 /// The photographs of the dataset, training ones first.
 struct Photographs {
@@ -141,6 +147,7 @@ struct Photographs {
   std::vector<Photograph> list;
   std::size_t train_count = 0;
   std::vector<std::string> notes;
+  FullPhotographs full;        // of the training ones
   bool stay_is_noted = false;  // a message has said that
 };
 
@@ -161,6 +168,14 @@ struct LayerEditing {
   /// layer's, because other numbers may have the same matrix.
   Similarity numbers;
   glm::dmat4 matrix{1.0};
+};
+
+/// The gizmo over the selected layer.
+struct GizmoState {
+  GizmoTool tool = GizmoTool::off;
+  GizmoAxes axes = GizmoAxes::world;
+  std::optional<GizmoDrag> drag = {};
+  bool is_hovered = false;  // in the last frame
 };
 
 /// The dialogs about saving; each is open if it has a value.
@@ -204,6 +219,9 @@ constexpr bool can_be_cancelled(JobKind kind) {
 /// A shorter job shows no progress.
 inline constexpr double progress_delay_seconds = 0.5;
 
+/// The parts of the panel; one is shown.
+enum class PanelTab { scene, drawing, camera };
+
 struct State {
   Settings settings;
   std::filesystem::path images_option;  // folder of --images, before the settings'; empty: none
@@ -223,16 +241,20 @@ struct State {
   Animation animation;
   Messages messages;
   LayerEditing layer_editing;
+  GizmoState gizmo;
   std::uint64_t gesture = 1;  // of controls that are held: a drag, or typing in a field
   SavingDialogs saving;
   ImageWish image;
   bool show_interface = true;
+  PanelTab tab = PanelTab::scene;
+  bool shows_checks = false;  // instead of the background
   bool show_keys = false;
   FileList files;
   bool adds_files = false;                    // they become layers of the scene
   bool show_files = false;                    // the window that opens files
   std::optional<std::string> scene_to_train;  // text of the dialog that starts a training
   TrainingChoice training_choice;             // of that dialog
+  std::optional<double> training_seconds;     // measured_seconds_per_pixel()
   bool asks_before_quitting = false;          // the dialog about a training in progress
   bool draw_continuously = false;
   std::optional<Worker::Status> busy, writing;
@@ -247,6 +269,8 @@ struct State {
   bool has_dialog() const {
     return scene_to_train || asks_before_quitting || saving.name || saving.losses || saving.leaving;
   }
+  /// The layer that the panel *Layers* has selected, or the first.
+  const DocumentLayer& selected_layer() const;
   /// The scene without the layers that the device refused.
   SceneSource drawn_source() const;
   /// The cameras of the photographs if there are any, otherwise of the scene.

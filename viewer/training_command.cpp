@@ -1,5 +1,12 @@
 #include "viewer/training_command.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "base/decimal_text.hpp"
 #include "base/extension.hpp"
 #include "trainer/common/training_files.hpp"
 #include "viewer/names.hpp"
@@ -69,6 +76,7 @@ std::vector<std::string> training_arguments(const fs::path& dataset, const fs::p
     return arguments;
   }
   add("steps", choice.steps);
+  add("scale", choice.scale);
   for (const MethodOption* option : method->options) {
     const auto typed = choice.values.find(option->name);
     if (typed == choice.values.end() || typed->second.empty()) continue;
@@ -78,6 +86,29 @@ std::vector<std::string> training_arguments(const fs::path& dataset, const fs::p
       add(option->name, typed->second);
   }
   return arguments;
+}
+
+std::string forecast_text(const TrainingChoice& choice, const FullPhotographs& full,
+                          double seconds_per_pixel) {
+  // What is no number counts as 0; `tureen train` reports it.
+  const auto number = [](const std::string& text) { return std::strtod(text.c_str(), nullptr); };
+  const auto minutes = choice.values.find("minutes");
+  const auto forecast =
+      forecast_of({.minutes = minutes == choice.values.end() ? 0 : number(minutes->second),
+                   .steps = number(choice.steps)},
+                  choice.scale.empty() ? std::nullopt : std::optional(number(choice.scale)), full,
+                  *choice.method, seconds_per_pixel);
+  if (!forecast)
+    return "Type the minutes for a forecast; without them, the method has its own "
+           "number of steps.";
+  const Camera& first = full.cameras.front();
+  const std::string size =
+      fmt::format("photographs of {:.0f} \u00d7 {:.0f}", std::round(first.width * forecast->scale),
+                  std::round(first.height * forecast->scale));
+  if (minutes != choice.values.end() && !minutes->second.empty())
+    return "About " + counted(std::uint64_t(std::max(one_digit(forecast->steps), 1.0))) +
+           " steps on " + size + ".";
+  return "About " + duration_text(60 * one_digit(forecast->minutes)) + " on " + size + ".";
 }
 
 std::string command_that_continues(const fs::path& dataset, const fs::path& scene) {

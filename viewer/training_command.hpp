@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "jobs/training/photograph_size.hpp"
 #include "jobs/training/training_method.hpp"
 
 namespace tureen::viewer {
@@ -36,8 +37,14 @@ enum class TrainingStart { new_run, from_checkpoint };
 struct TrainingChoice {
   const TrainingMethodInfo* method = training_methods().front();
   std::string steps = {};
+  std::string scale = {};                          // of the photographs, as --scale takes it
   std::map<std::string, std::string> values = {};  // by MethodOption::name; of a flag, any text
 };
+
+/// "About 2,000 steps on photographs of 540 x 360": for a window. Without minutes and steps, that
+/// their number is the method's own. `full`: the photographs of the dataset.
+std::string forecast_text(const TrainingChoice& choice, const FullPhotographs& full,
+                          double seconds_per_pixel);
 
 /// The arguments of `tureen` that train `scene` from the dataset, with a window that shows it. A
 /// run from a checkpoint keeps its method and constants and ignores `choice`.

@@ -16,7 +16,17 @@ namespace tureen::viewer {
 
 /// A new job replaces the waiting job of its kind and abandons the running one. Writing jobs
 /// are queued instead.
-enum class JobKind { scene, dataset, drawing, debug_view, layers, comparison, writing, tracing };
+enum class JobKind {
+  scene,
+  dataset,
+  drawing,
+  debug_view,
+  layers,
+  comparison,
+  forecast,
+  writing,
+  tracing
+};
 
 class Worker {
  public:

@@ -83,7 +83,7 @@ void write_traced_image(const ImageJob& job, const std::function<void(double)>& 
 }  // namespace
 
 void write_image(const ImageJob& job, const StageRequest& request) {
-  const glm::vec4 background(job.scene.scene->info.background, job.transparent ? 0.0f : 1.0f);
+  const glm::vec4 background(background_of(job.scene), job.transparent ? 0.0f : 1.0f);
   const auto progress = [&](double done) {
     request.progress(preparing_share + (1 - preparing_share) * done);
   };

@@ -46,7 +46,8 @@ const MethodOption triangles_option{.name = "triangles",
                                     .type = Type::whole,
                                     .help = "number of triangles at the end; 15,000 by default",
                                     .instead = "--max-splats limits the number of splats",
-                                    .value_name = "N"};
+                                    .value_name = "N",
+                                    .is_common = true};
 const MethodOption batch_option{
     .name = "batch",
     .type = Type::whole,

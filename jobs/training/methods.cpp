@@ -26,7 +26,8 @@ const MethodOption minutes_option{
         "time for the training, more than 0: the number of steps is fitted to it, and without "
         "--scale the size of the photographs; replaces the steps of --config",
     .instead = "--steps sets the length of the training",
-    .value_name = "N"};
+    .value_name = "N",
+    .is_common = true};
 
 void set_time(double& minutes, const TrainingOptions& options) {
   const auto& given = options[minutes_option].number;

@@ -88,22 +88,50 @@ FullPhotographs full_photographs(const std::filesystem::path& dataset, DatasetOp
   return full;
 }
 
-PhotographSize photographs_for(double minutes, const FullPhotographs& full,
-                               const TrainingMethodInfo& method, double seconds_per_pixel) {
-  TimeForSteps time{.seconds = 60 * minutes,
+FullPhotographs full_photographs(const std::vector<Photograph>& train) {
+  FullPhotographs full;
+  for (const Photograph& each : train) full.cameras.push_back(each.camera);
+  for (const glm::u8vec4& pixel : train.front().image.pixels) full.of_an_object |= pixel.a < 255;
+  return full;
+}
+
+std::optional<TrainingForecast> forecast_of(const TrainingLength& length,
+                                            std::optional<double> scale,
+                                            const FullPhotographs& full,
+                                            const TrainingMethodInfo& method,
+                                            double seconds_per_pixel) {
+  if (!(length.minutes > 0 || length.steps > 0)) return {};
+  TimeForSteps time{.seconds = 60 * length.minutes,
                     .seconds_per_pixel = seconds_per_pixel * method.cost_of_pixel,
                     .steps = full.of_an_object ? method.least_steps / 4 : method.least_steps};
   for (const Camera& camera : full.cameras)
     time.pixels += double(camera.width) * camera.height / double(full.cameras.size());
-  const double scale = scale_for(time), steps = time.seconds / time.of_step(scale);
-  // One digit: the forecast is no better.
-  const double unit = std::pow(10, std::floor(std::log10(std::max(steps, 1.0))));
-  return {.scale = scale,
-          .note = {"scale_for_minutes", scale,
-                   fmt::format("{:g} min allow about {} steps at --scale {:g} of the photographs, "
-                               "the size of this training; --scale chooses another",
-                               minutes, counted(std::uint64_t(std::round(steps / unit) * unit)),
-                               scale)}};
+  TrainingForecast forecast{.minutes = length.minutes, .steps = length.steps};
+  forecast.scale = scale.value_or(length.minutes > 0 ? scale_for(time) : 1);
+  const double step = time.of_step(forecast.scale);
+  if (length.minutes > 0)
+    forecast.steps = time.seconds / step;
+  else
+    forecast.minutes = length.steps * step / 60;
+  return forecast;
+}
+
+double one_digit(double value) {
+  const double unit = std::pow(10, std::floor(std::log10(std::max(value, 1e-9))));
+  return std::round(value / unit) * unit;
+}
+
+PhotographSize photographs_for(double minutes, const FullPhotographs& full,
+                               const TrainingMethodInfo& method, double seconds_per_pixel) {
+  const TrainingForecast forecast =
+      *forecast_of({.minutes = minutes}, {}, full, method, seconds_per_pixel);
+  return {.scale = forecast.scale,
+          .note = {
+              "scale_for_minutes", forecast.scale,
+              fmt::format("{:g} min allow about {} steps at --scale {:g} of the photographs, "
+                          "the size of this training; --scale chooses another",
+                          minutes, counted(std::uint64_t(std::max(one_digit(forecast.steps), 1.0))),
+                          forecast.scale)}};
 }
 
 }  // namespace tureen

@@ -2,6 +2,8 @@
 // but a step takes longer: with too few steps, the scene stays blurred, whatever their size.
 #pragma once
 
+#include <optional>
+
 #include "formats/dataset/dataset.hpp"
 #include "jobs/training/training_method.hpp"
 
@@ -39,6 +41,26 @@ struct FullPhotographs {
 /// The training photographs of a dataset. Throws the errors of read_dataset_summary(). They
 /// show an object if the file of the first has transparent pixels.
 FullPhotographs full_photographs(const std::filesystem::path& dataset, DatasetOptions options);
+/// The same for photographs that were read at full size; at least one.
+FullPhotographs full_photographs(const std::vector<Photograph>& train);
+
+/// How long a training is: one of both.
+struct TrainingLength {
+  double minutes = 0, steps = 0;
+};
+struct TrainingForecast {
+  double scale = 1;  // of the photographs
+  double minutes = 0, steps = 0;
+};
+/// `scale`: default: photographs_for() the minutes, or 1 for a number of steps. nullopt unless the
+/// length is above 0.
+std::optional<TrainingForecast> forecast_of(const TrainingLength& length,
+                                            std::optional<double> scale,
+                                            const FullPhotographs& full,
+                                            const TrainingMethodInfo& method,
+                                            double seconds_per_pixel);
+/// A number with one digit: a forecast is no better.
+double one_digit(double value);
 
 /// The size for a training by this method.
 PhotographSize photographs_for(double minutes, const FullPhotographs& full,

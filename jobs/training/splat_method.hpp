@@ -27,7 +27,8 @@ inline const MethodOption max_splats_option{
         "largest number of splats; by default 60,000 Gaussians or soft triangles, or 10,000 neural "
         "densities",
     .instead = "--triangles sets the number of triangles",
-    .value_name = "N"};
+    .value_name = "N",
+    .is_common = true};
 inline const MethodOption max_bytes_option{
     .name = "max-bytes",
     .type = MethodOption::Type::whole,

@@ -32,6 +32,7 @@ struct MethodOption {
   const char* value_name = "";               // in --help
   std::vector<std::string> words = {};       // of Type::word
   std::vector<std::string> everywhere = {};  // the words that methods without the option accept
+  bool is_common = false;                    // windows show it among the first
 };
 
 /// The value of an option; the member of its type is set if it is given.

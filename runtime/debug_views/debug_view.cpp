@@ -17,14 +17,18 @@ namespace {
 
 constexpr std::array debug_views{
     DebugViewName{DebugView::color, "color", "final colour", "as rendered"},
-    DebugViewName{DebugView::depth, "depth", "depth", "distance along the viewing axis"},
-    DebugViewName{DebugView::normals, "normals", "normals", "(n + 1) / 2, towards the eye"},
+    DebugViewName{DebugView::depth, "depth", "depth", "distance along the viewing axis",
+                  "mean distance along the viewing axis"},
+    DebugViewName{DebugView::normals, "normals", "normals", "(n + 1) / 2, towards the eye",
+                  "(n + 1) / 2 of the mean, towards the eye"},
     DebugViewName{DebugView::triangle_id, "triangle-id", "triangle id", "one colour a triangle"},
     DebugViewName{DebugView::texels, "texels", "texels", "the nearest texel, not interpolated"},
-    DebugViewName{DebugView::alpha, "alpha", "alpha", "including cut-out fragments"},
+    DebugViewName{DebugView::alpha, "alpha", "alpha", "including cut-out fragments",
+                  "the part of the light that is blocked"},
     DebugViewName{DebugView::mlp_weight, "mlp-weight", "MLP weight", "blend weight of the network"},
     DebugViewName{DebugView::features, "features", "features", "stored texel values"},
-    DebugViewName{DebugView::overdraw, "overdraw", "overdraw", "fragments a pixel"},
+    DebugViewName{DebugView::overdraw, "overdraw", "overdraw", "fragments a pixel",
+                  "blended splats a pixel"},
     DebugViewName{DebugView::wireframe, "wireframe", "wireframe", "edges over the dimmed colour"},
     DebugViewName{DebugView::holes, "holes", "holes", "uncovered among covered pixels"},
     DebugViewName{DebugView::median_depth, "median-depth", "median depth",
@@ -204,7 +208,8 @@ glm::vec3 cut_out_color(float part_of_threshold) {
                   part_of_threshold);
 }
 
-Legend legend(DebugView what, const DepthScale& scale, const FeatureChoice& choice) {
+Legend legend(DebugView what, const DepthScale& scale, const FeatureChoice& choice,
+              Subjects subjects) {
   constexpr glm::u8vec4 black{0, 0, 0, 255}, grey{128, 128, 128, 255}, white{255, 255, 255, 255};
   switch (what) {
     case DebugView::depth:
@@ -214,6 +219,7 @@ Legend legend(DebugView what, const DepthScale& scale, const FeatureChoice& choi
       return {
           {{255, 128, 128, 255}, "x"}, {{128, 255, 128, 255}, "y"}, {{128, 128, 255, 255}, "z"}};
     case DebugView::alpha:
+      if (subjects == Subjects::splats) return {{black, "0"}, {white, "1"}};
       return {{bytes(cut_out_color(0)), "0, cut out"},
               {bytes(cut_out_color(1)), "just cut out"},
               {grey, "just kept"},

@@ -40,7 +40,14 @@ struct DebugViewName {
   const char* name;     // "triangle-id", for the command line
   const char* title;    // "triangle id", for display
   const char* meaning;  // in a few words
+  const char* meaning_for_splats = meaning;
 };
+
+/// What a debug view shows, for its words: a scene with triangles, or splats alone.
+enum class Subjects { triangles, splats };
+inline const char* meaning_of(const DebugViewName& name, Subjects subjects) {
+  return subjects == Subjects::splats ? name.meaning_for_splats : name.meaning;
+}
 
 /// All debug views, in the order of the enumeration.
 std::span<const DebugViewName> debug_view_names();
@@ -103,6 +110,7 @@ inline constexpr glm::vec3 hole_color{1.0f, 0.0f, 1.0f};
 glm::vec3 cut_out_color(float part_of_threshold);
 
 /// Legend of the colours, shown beside the image; empty for self-explanatory colours.
-Legend legend(DebugView what, const DepthScale& scale, const FeatureChoice& choice);
+Legend legend(DebugView what, const DepthScale& scale, const FeatureChoice& choice,
+              Subjects subjects = Subjects::triangles);
 
 }  // namespace tureen

@@ -1,5 +1,6 @@
 #include "runtime/debug_views/debug_views.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
@@ -124,7 +125,11 @@ std::vector<std::uint8_t> DebugViews::read_fragment_counts() const {
 }
 
 Legend DebugViews::legend() const {
-  return tureen::legend(state_->shown.what, state_->shown.scale, state_->shown.features);
+  const auto& subjects = state_->subjects;
+  const bool splats = std::all_of(subjects.begin(), subjects.end(),
+                                  [](const DebugViewSubject& each) { return !each.shader; });
+  return tureen::legend(state_->shown.what, state_->shown.scale, state_->shown.features,
+                        splats ? Subjects::splats : Subjects::triangles);
 }
 
 }  // namespace tureen

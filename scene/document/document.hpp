@@ -29,6 +29,7 @@ struct Document {
   Quality quality = {};                      // without a defect()
   std::optional<SplatProfile> profile = {};  // of all splats; default: their own
   std::optional<glm::vec3> background = {};  // display-referred; default: that of the first file
+  std::optional<Camera> first_view = {};     // Scene::first_view; default: that of the first file
   LayerId next_id = 1;                       // larger than all ids
 
   LayerId new_id() { return next_id++; }

@@ -87,6 +87,9 @@ struct Apply {
   Edit operator()(const ChangeBackground& edit) const {
     return ChangeBackground{std::exchange(document.background, edit.background)};
   }
+  Edit operator()(const ChangeFirstView& edit) const {
+    return ChangeFirstView{std::exchange(document.first_view, edit.view)};
+  }
 };
 
 struct Describe {
@@ -134,6 +137,7 @@ struct Describe {
   std::string operator()(const ChangeQuality&) const { return "Change the quality"; }
   std::string operator()(const ChangeProfile&) const { return "Change the profile"; }
   std::string operator()(const ChangeBackground&) const { return "Change the background"; }
+  std::string operator()(const ChangeFirstView&) const { return "Change the first view"; }
 };
 
 }  // namespace

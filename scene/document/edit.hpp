@@ -51,9 +51,13 @@ struct ChangeProfile {
 struct ChangeBackground {
   std::optional<glm::vec3> background;
 };
+struct ChangeFirstView {
+  std::optional<Camera> view;
+};
 
 using Edit = std::variant<AddLayers, RemoveLayers, PlaceLayer, RenameLayer, ShowLayer, SetMaterial,
-                          ReorderLayer, ChangeUp, ChangeQuality, ChangeProfile, ChangeBackground>;
+                          ReorderLayer, ChangeUp, ChangeQuality, ChangeProfile, ChangeBackground,
+                          ChangeFirstView>;
 
 /// Changes the document. Returns the edit that undoes the change: applied to the result, it gives
 /// the document before, except next_id. Ids that the document lacks are ignored, because a file

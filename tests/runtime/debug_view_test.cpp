@@ -598,5 +598,13 @@ TEST(Legends, NameColorsWhereNumbersHideInThem) {
   EXPECT_TRUE(legend(DebugView::color, scale, {}).empty());
 }
 
+TEST(Legends, OfSplatsNameNoCutOuts) {
+  const DepthScale scale{1, 16};
+  EXPECT_EQ(legend(DebugView::alpha, scale, {}).size(), 4u);
+  EXPECT_EQ(legend(DebugView::alpha, scale, {}, Subjects::splats).size(), 2u);
+  for (const DebugViewName& name : debug_view_names())
+    EXPECT_THAT(meaning_of(name, Subjects::splats), testing::Not(testing::HasSubstr("cut-out")));
+}
+
 }  // namespace debug_view_test
 }  // namespace tureen::test

@@ -17,7 +17,7 @@ bool operator==(const Bounds& a, const Bounds& b) { return a.low == b.low && a.h
 /// What a user sees of the documents.
 bool same(const Document& a, const Document& b) {
   return a.up == b.up && a.quality == b.quality && a.profile == b.profile &&
-         a.background == b.background &&
+         a.background == b.background && a.first_view == b.first_view &&
          std::equal(a.layers.begin(), a.layers.end(), b.layers.begin(), b.layers.end(),
                     [](const DocumentLayer& x, const DocumentLayer& y) {
                       return x.id == y.id && x.primitives == y.primitives && x.name == y.name &&
@@ -64,7 +64,7 @@ Edit random_edit(Document& document, Random& random) {
   };
   const LayerId id =
       document.layers.empty() ? 0 : document.layers[below(document.layers.size())].id;
-  switch (below(11)) {
+  switch (below(12)) {
     case 0: {
       AddLayers add;
       for (std::size_t i = 0; i < 1 + below(2); ++i)
@@ -88,6 +88,11 @@ Edit random_edit(Document& document, Random& random) {
       return ChangeQuality{{.supersampling = 1 + int(below(8))}};
     case 8:
       return ChangeBackground{glm::vec3(random.uniform(0, 1))};
+    case 10: {
+      Camera view;
+      view.width = int(below(100));
+      return ChangeFirstView{view};
+    }
     case 9:
       return SetMaterial{id, below(3) == 0   ? std::nullopt
                              : below(2) == 0 ? std::optional(mirror_material())

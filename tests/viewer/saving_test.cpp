@@ -89,7 +89,8 @@ TEST_F(Saving, AGlbHoldsTheDocument) {
        {moved(source, 1), Edit(ShowLayer{soup, false}), Edit(RenameLayer{soup, "house"}),
         Edit(ReorderLayer{soup, 1}), Edit(SetMaterial{soup, glass_material(1.33f)}),
         Edit(ChangeUp{{0, 0, 1}}), Edit(ChangeQuality{{.supersampling = 2}}),
-        Edit(ChangeProfile{profile_named("mip")})})
+        Edit(ChangeProfile{profile_named("mip")}), Edit(ChangeBackground{glm::vec3(0.25, 0.5, 1)}),
+        Edit(ChangeFirstView{look_at({1, 2, 3}, {0, 0, 0}, {0, 0, 1}, 0.7, 320, 200)})})
     apply_edit(document, edit);
   EXPECT_FALSE(source.is_as_read());
   Saved saved = save_scene(source, folder_ / "both.glb", false);
@@ -107,6 +108,9 @@ TEST_F(Saving, AGlbHoldsTheDocument) {
   }
   EXPECT_EQ(again.document.up, document.up);
   EXPECT_EQ(again.document.quality, document.quality);
+  EXPECT_EQ(background_of(again), background_of(source));
+  ASSERT_TRUE(first_view_of(again));
+  EXPECT_LT(glm::distance(first_view_of(again)->eye(), glm::dvec3(1, 2, 3)), 1e-9);
   EXPECT_EQ(splats_of(again.document.layers[0])->profile, *document.profile);
   // The window then has this file, with the layers that it had.
   const SceneSource snapshot = source;

@@ -40,9 +40,14 @@ TEST(Session, ComesBackAsItWasRecorded) {
   Session recorded{.window = {800, 600}, .events = {}};
   const std::vector<Event> first = {PointerMoved{0.1, -3}, ButtonChanged{Button::middle, true},
                                     Scrolled{0, -1}, KeyChanged{Key::left_bracket, true}};
-  const std::vector<Event> second = {TextTyped{0x20ac}, FilesDropped{{"a b.glb", "\"quoted\".off"}},
-                                     Resized{20, 10},   FocusChanged{false},
-                                     AwaitRest{},       WindowScreenshot{"x.png"},
+  const std::vector<Event> second = {TextTyped{0x20ac},
+                                     FilesDropped{{"a b.glb", "\"quoted\".off"}},
+                                     Resized{20, 10},
+                                     FocusChanged{false},
+                                     AwaitRest{},
+                                     WindowScreenshot{"x.png"},
+                                     ControlClicked{"Save"},
+                                     ControlClicked{"gizmo: x", {3, -4}},
                                      CloseAsked{}};
   recorded.add(0.1, first);
   recorded.add(1.0 / 3, second);
@@ -52,6 +57,7 @@ TEST(Session, ComesBackAsItWasRecorded) {
   ASSERT_EQ(session.events.size(), first.size() + second.size());
   EXPECT_EQ(session.events.back().seconds, 1.0 / 3) << "exactly equal";
   EXPECT_EQ(session_to_json(session), text);
+  EXPECT_EQ(std::get<ControlClicked>(session.events[11].event).by.y, -4);
   EXPECT_EQ(std::get<FilesDropped>(session.events[5].event).paths.at(1), "\"quoted\".off");
 }
 

@@ -33,6 +33,36 @@ TEST(TrainingCommand, HasTheMethodAndItsOptions) {
                                    "gaussians", "--steps", "500", "--max-splats", "9", "--flat"));
 }
 
+TEST(TrainingCommand, HasTheSizeOfThePhotographs) {
+  EXPECT_THAT(training_arguments("/fox", "/a.glb", TrainingStart::new_run, {.scale = "0.25"}),
+              testing::ElementsAre("train", "/fox", "-o", "/a.glb", "--watch", "--scale", "0.25"));
+}
+
+TEST(TrainingCommand, HasAForecast) {
+  FullPhotographs full;
+  Camera camera;
+  camera.width = 1000;
+  camera.height = 500;
+  full.cameras.push_back(camera);
+  const TrainingMethodInfo* gaussians = training_methods()[1];
+  ASSERT_EQ(gaussians->cost_of_pixel, 1);
+  const double second_a_step = 1 / 550e3;  // of 500,000 pixels, and splats that cost 50,000
+  const auto text = [&](const std::string& minutes, const std::string& steps,
+                        const std::string& scale) {
+    return forecast_text(
+        {.method = gaussians, .steps = steps, .scale = scale, .values = {{"minutes", minutes}}},
+        full, second_a_step);
+  };
+  using testing::HasSubstr;
+  EXPECT_THAT(text("15", "", "1"),
+              testing::AllOf(HasSubstr("900 steps"), HasSubstr("1000 \u00d7 500")));
+  // Without a size, the time chooses it.
+  EXPECT_THAT(text("15", "", ""), testing::Not(HasSubstr("1000 \u00d7 500")));
+  EXPECT_THAT(text("", "120", "1"), HasSubstr("2 min"));
+  EXPECT_THAT(text("", "120", "0.5"), HasSubstr("500 \u00d7 250"));
+  EXPECT_EQ(text("x", "", ""), text("", "", ""));
+}
+
 TEST(TrainingCommand, ContinuesFromACheckpoint) {
   const fs::path folder = fs::path(testing::TempDir()) / "training_continued";
   fs::remove_all(folder);

@@ -30,6 +30,7 @@
 #include "tests/support/errors.hpp"
 #include "tests/support/golden.hpp"
 #include "tests/viewer/display.hpp"
+#include "tests/viewer/window_fixture.hpp"
 #include "trainer/common/run_control.hpp"
 #include "trainer/common/training_log.hpp"
 #include "viewer/files/session.hpp"
@@ -37,9 +38,6 @@
 
 namespace tureen::test {
 namespace window_test {
-
-namespace fs = std::filesystem;
-using namespace tureen::viewer;
 
 /// One server for all tests in this process.
 class DisplayEnvironment : public testing::Environment {
@@ -52,148 +50,6 @@ class DisplayEnvironment : public testing::Environment {
 };
 [[maybe_unused]] const auto* const environment =
     testing::AddGlobalTestEnvironment(new DisplayEnvironment);  // GoogleTest owns it
-
-/// A sequence of user actions. Times are on the session's clock.
-class Person {
- public:
-  explicit Person(glm::ivec2 window = {720, 450}) { session_.window = window; }
-
-  Person& wait() { return add(AwaitRest{}); }
-  Person& press(Key key) { return add(KeyChanged{key, true}).add(KeyChanged{key, false}); }
-  Person& press_with_control(Key key, std::optional<Key> too = {}) {
-    add(KeyChanged{Key::control, true});
-    if (too) add(KeyChanged{*too, true});
-    press(key);
-    if (too) add(KeyChanged{*too, false});
-    return add(KeyChanged{Key::control, false});
-  }
-  Person& hold(Key key, double seconds) {
-    add(KeyChanged{key, true});
-    now_ += seconds;
-    return add(KeyChanged{key, false});
-  }
-  Person& drag(Button button, glm::dvec2 from, glm::dvec2 to) {
-    add(PointerMoved{from.x, from.y}).add(ButtonChanged{button, true});
-    for (int i = 1; i <= 5; ++i) {
-      const glm::dvec2 at = from + (to - from) * (i / 5.0);
-      add(PointerMoved{at.x, at.y});
-    }
-    return add(ButtonChanged{button, false});
-  }
-  Person& begin_drag(glm::dvec2 at) { return point(at).add(ButtonChanged{Button::left, true}); }
-  Person& end_drag() { return add(ButtonChanged{Button::left, false}); }
-  Person& point(glm::dvec2 at) { return add(PointerMoved{at.x, at.y}); }
-  Person& click(glm::dvec2 at) { return drag(Button::left, at, at); }
-  /// Waits until the notes have disappeared.
-  Person& without_notes() { return hold(Key::super, Messages::note_seconds + 1); }
-  Person& turn_wheel(double away) { return add(Scrolled{0, away}); }
-  Person& drop(const std::string& path) { return drop_all({path}); }
-  Person& drop_all(std::vector<std::string> paths) { return add(FilesDropped{std::move(paths)}); }
-  Person& double_click(glm::dvec2 at) { return click(at).click(at); }
-  Person& type(const std::string& ascii) {
-    for (const char letter : ascii) add(TextTyped{static_cast<unsigned char>(letter)});
-    return press(Key::enter);
-  }
-  Person& resize(glm::ivec2 size) { return add(Resized{size.x, size.y}); }
-  Person& replace(const std::string& file, const std::string& with) {
-    return add(FileReplaced{.from = with, .to = file});
-  }
-  /// Adds a screenshot of the current window.
-  Person& take(const std::string& name) { return add(WindowScreenshot{name + ".png"}); }
-  /// Waits until loading and motion are finished, then adds a screenshot.
-  Person& look(const std::string& name) { return wait().add(WindowScreenshot{name + ".png"}); }
-
-  const Session& session() const { return session_; }
-
- private:
-  Person& add(Event event) {
-    now_ += 0.02;
-    session_.events.push_back({now_, std::move(event)});
-    return *this;
-  }
-  Session session_;
-  double now_ = 0;
-};
-
-constexpr const char* square = "OFF\n4 2 0\n-2 -2 0.3\n2 -2 0.3\n2 2 0.3\n-2 2 0.3\n";
-
-/// A square of this colour, which cuts the example.
-void write_square(const fs::path& file, const std::string& color) {
-  std::ofstream(file) << square << "3 0 1 2 " << color << "\n3 0 2 3 " << color << "\n";
-}
-
-class Window : public testing::Test {
- protected:
-  Window()
-      : folder_(fs::path(testing::TempDir()) / "window" /
-                testing::UnitTest::GetInstance()->current_test_info()->name()) {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-    fs::copy(fs::path(TUREEN_SOURCE_DIR) / "examples/soup.glb", folder_ / "soup.glb");
-    ::setenv("XDG_CONFIG_HOME", (folder_ / "config").c_str(), 1);
-  }
-
-  ChildResult replay(const Person& person, std::vector<std::string> arguments = {"soup.glb"}) {
-    std::ofstream(folder_ / "session.json") << session_to_json(person.session());
-    arguments.insert(arguments.end(), {"--replay", "session.json", "--pictures", "pictures"});
-    // One sample a pixel, as the goldens and `tureen render` have.
-    if (!smooth_at_rest_) arguments.emplace_back("--no-smooth-at-rest");
-    return Child(arguments, folder_).wait();
-  }
-  Image8 image(const std::string& name) const {
-    Input input = Input::open(folder_ / "pictures" / (name + ".png"));
-    return read_image(input);
-  }
-  /// The image of `tureen render` with these options.
-  Image8 rendered(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), {"render", "soup.glb"});
-    arguments.insert(arguments.end(), {"-o", "rendered.png", "--force"});
-    const ChildResult result = Child(arguments, folder_, TUREEN_HEADLESS_PROGRAM).wait();
-    EXPECT_EQ(result.exit_code, 0) << result.err;
-    Input input = Input::open(folder_ / "rendered.png");
-    return read_image(input);
-  }
-
-  /// A dataset of one training and one test photograph, both drawn from the scene itself.
-  void write_photographs() const {
-    const Scene scene = read_scene(folder_ / "soup.glb");
-    fs::create_directories(folder_ / "photographs");
-    for (const auto& [split, index] : {std::pair("train", 0), std::pair("test", 40)}) {
-      const Camera camera = resized(scene.cameras.at(std::size_t(index)), 240, 200);
-      const Image8 drawn =
-          rendered({"--camera", "soup.glb:" + std::to_string(index), "--size", "240x200"});
-      fs::copy(folder_ / "rendered.png", folder_ / "photographs" / (std::string(split) + ".png"));
-      const glm::dmat4 pose = glm::inverse(camera.view_from_world);
-      nlohmann::json matrix = nlohmann::json::array();
-      for (int row = 0; row < 4; ++row)
-        matrix.push_back({pose[0][row], pose[1][row], pose[2][row], pose[3][row]});
-      std::ofstream(folder_ / "photographs" / ("transforms_" + std::string(split) + ".json"))
-          << nlohmann::json{
-                 {"fl_x", camera.fx},
-                 {"fl_y", camera.fy},
-                 {"cx", camera.cx},
-                 {"cy", camera.cy},
-                 {"w", 240},
-                 {"h", 200},
-                 {"frames",
-                  {{{"file_path", std::string(split) + ".png"}, {"transform_matrix", matrix}}}}};
-    }
-  }
-
-  fs::path folder_;
-  bool smooth_at_rest_ = false;
-};
-
-/// Slow tests of features that change rarely: only in `./dev test --all`.
-class ThoroughWindow : public Window {};
-
-void expect_equal(const Image8& a, const Image8& b) {
-  ASSERT_EQ(a.width, b.width);
-  ASSERT_EQ(a.height, b.height);
-  std::size_t off = 0;
-  for (std::size_t i = 0; i < a.pixels.size(); ++i) off += a.pixels[i] != b.pixels[i];
-  EXPECT_EQ(off, 0u) << "pixels of " << a.pixels.size();
-}
 
 TEST_F(Window, ShowsTheSceneAndItsPanels) {
   const ChildResult result = replay(Person().look("loaded"));
@@ -260,8 +116,7 @@ TEST_F(Window, WithoutASceneAsksForOne) {
 }
 
 TEST_F(Window, OpensTheExample) {
-  const glm::dvec2 example_button{386, 206};
-  const ChildResult result = replay(Person().wait().click(example_button).look("example"), {});
+  const ChildResult result = replay(Person().wait().click("Open the example").look("example"), {});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(replay(Person().look("loaded"), {"soup.glb"}).exit_code, 0);
   // The panels differ: the name of the file.
@@ -307,26 +162,16 @@ TEST_F(Window, SavesImagesUnderNewNames) {
   expect_equal(image("soup-2"), expected);
 }
 
-/// Positions in the column of panels in a window 720 points wide, from the goldens. The sections
-/// above are closed first, from the lowest to the highest.
-constexpr glm::dvec2 view_header{560, 280}, scene_header{560, 26}, image_header{560, 286},
-    photographs_header{560, 248}, image_size{590, 322}, size_of_4k{540, 427},
-    image_folder{590, 356}, page_button{445, 446};
+/// Shows the panel Image.
+Person& open_images(Person& person) {
+  return person.wait().click("tab: Camera").click("section: View");
+}
 
 TEST_F(ThoroughWindow, SavesImagesLargerThanItself) {
-  const ChildResult result = replay(Person({720, 640})
-                                        .wait()
-                                        .press(Key::right_bracket)
-                                        .wait()
-                                        .click(view_header)
-                                        .click(scene_header)
-                                        .click(image_header)
-                                        .click(image_size)
-                                        .click(size_of_4k)
-                                        .point({200, 300})
-                                        .look("panel")
-                                        .press(Key::p)
-                                        .wait());
+  Person person({720, 640});
+  open_images(person.wait().press(Key::right_bracket));
+  person.click("Size").click("3840 \u00d7 2160").point({200, 300}).look("panel");
+  const ChildResult result = replay(person.press(Key::p).wait());
   EXPECT_EQ(result.exit_code, 0) << result.err;
   expect_golden(image("panel"), "window_images");
   expect_equal(image("soup-1"), rendered({"--camera", "soup.glb:0", "--size", "3840x2160"}));
@@ -334,7 +179,7 @@ TEST_F(ThoroughWindow, SavesImagesLargerThanItself) {
 
 TEST_F(Window, ReportsAFolderForImagesThatDoesNotExist) {
   Person person({720, 640});
-  person.wait().click(view_header).click(scene_header).click(image_header).click(image_folder);
+  open_images(person).click("Folder");
   const Session session = person.type("no folder").press(Key::p).wait().session();
   std::ofstream(folder_ / "session.json") << session_to_json(session);
   const ChildResult result = Child({"soup.glb", "--replay", "session.json"}, folder_).wait();
@@ -344,10 +189,7 @@ TEST_F(Window, ReportsAFolderForImagesThatDoesNotExist) {
 }
 
 /// Opens the panel Image in a window of 720 x 640, and saves a page.
-Person& save_page(Person& person) {
-  person.wait().click(view_header).click(scene_header).click(image_header);
-  return person.click(page_button).wait();
-}
+Person& save_page(Person& person) { return open_images(person).click("Save as a web page"); }
 
 /// The template of a page. The program's own is missing where the page was not built.
 class Template {
@@ -382,24 +224,25 @@ TEST_F(Window, ReportsWhyAPageWasNotWritten) {
   EXPECT_FALSE(fs::exists(folder_ / "pictures" / "soup-1.html"));
 }
 
-TEST_F(ThoroughWindow, SavesNoPageOfChangedLayers) {
+TEST_F(ThoroughWindow, SavesAPageOfChangedLayers) {
   write_square(folder_ / "floor.off", "255 0 0");
   std::ofstream(folder_ / "template.html")
       << R"(<script type="application/octet-stream;base64" id="scene" data-name=""></script>)";
   const Template other(folder_ / "template.html");
-  // The panel Layers is above the others, here closed like the scene's.
-  const glm::dvec2 second_layer{391, 482}, layers_header{560, 424}, below(0, 38.5);
+  std::string pages[2];
   for (const bool changes : {false, true}) {
     Person person({720, 640});
     person.wait();
-    if (changes) person.click(second_layer);
-    person.click(layers_header).click(scene_header).click(glm::dvec2(560, 65) + below);
-    person.click(image_header + below).click(page_button + below).look("panel");
-    const ChildResult result = replay(person, {"soup.glb", "floor.off"});
+    if (changes) person.click("visible: floor");
+    const ChildResult result = replay(save_page(person), {"soup.glb", "floor.off"});
     EXPECT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_EQ(fs::exists(folder_ / "pictures" / "soup-1.html"), !changes);
+    std::ifstream file(folder_ / "pictures" / "soup-1.html");
+    pages[changes] = {std::istreambuf_iterator<char>(file), {}};
     fs::remove(folder_ / "pictures" / "soup-1.html");
   }
+  EXPECT_GT(pages[0].size(), fs::file_size(folder_ / "soup.glb"));
+  EXPECT_GT(pages[1].size(), fs::file_size(folder_ / "soup.glb"));
+  EXPECT_NE(pages[0], pages[1]);
 }
 
 TEST_F(Window, PlaysACameraPath) {
@@ -511,7 +354,7 @@ TEST_F(ThoroughWindow, ReportsThatNoPhotographHasTheView) {
 TEST_F(ThoroughWindow, TheTextsOfThePanelPhotographsFit) {
   write_photographs();
   Person person({720, 640});
-  person.wait().click(view_header).click(scene_header).click(photographs_header);
+  person.wait().click("tab: Camera").click("section: View");
   const ChildResult result =
       replay(person.point({200, 540}).without_notes().look("panel"), {"soup.glb", "photographs"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -652,25 +495,24 @@ TEST_F(Window, SavedImagesAndDebugViewsShowAllLayers) {
   expect_equal(image("soup-3"), image("depth_of_three"));
 }
 
-/// Positions in the panel Layers of a scene of two layers in a window of 720 x 720, from the
-/// golden.
-constexpr glm::dvec2 second_visible{391, 482}, second_name{500, 482}, degrees_x{514, 580},
-    remove_button{637, 686};
+/// The angle about x in the panel Layers of a scene of two layers, in a window of 720 x 720, from
+/// the golden.
+constexpr glm::dvec2 degrees_x{514, 588};
 
 TEST_F(Window, ThePanelPlacesHidesAndRemovesLayers) {
   write_square(folder_ / "floor.off", "255 0 0");
   Person person({720, 720});
   person.drop_all({"soup.glb", "floor.off"}).wait().press(Key::digit_7).wait().without_notes();
-  person.click(second_name).double_click(degrees_x).type("30").point({200, 540}).look("placed");
+  person.click("layer: floor").double_click(degrees_x).type("30").point({200, 540}).look("placed");
   // The image alone: as it is saved, as a debug view, and after the files were read again.
   person.press(Key::h).look("alone").press(Key::p).wait().press(Key::v).wait();
   person.without_notes().press(Key::p).wait().without_notes().look("depth");
   for (int i = 0; i < 8; ++i) person.press(Key::v);  // once around those that the square has
   person.press(Key::f5).wait().without_notes().look("again");
-  person.press(Key::h).wait().click(second_visible).press(Key::h).look("hidden");
+  person.press(Key::h).wait().click("visible: floor").press(Key::h).look("hidden");
   // Also in a debug view, whose passes refer to the layers.
   for (int i = 0; i < 3; ++i) person.press(Key::v);
-  person.look("faces").press(Key::h).wait().click(remove_button).press(Key::h).look("removed");
+  person.look("faces").press(Key::h).wait().click("Remove").press(Key::h).look("removed");
   const ChildResult result = replay(person, {});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   expect_golden(image("placed"), "window_layers");
@@ -688,7 +530,7 @@ TEST_F(Window, ALayerThatArrivesDuringADragStays) {
       << "OFF\n4 2 0\n-2 0 -2\n2 0 -2\n2 0 2\n-2 0 2\n3 0 1 2 0 0 255\n3 0 2 3 0 0 255\n";
   Person person({720, 720});
   person.drop_all({"soup.glb", "floor.off"}).wait().press(Key::digit_7).wait().without_notes();
-  person.click(second_name).begin_drag(degrees_x);
+  person.click("layer: floor").begin_drag(degrees_x);
   for (int i = 1; i <= 40; ++i) {
     person.point(degrees_x + glm::dvec2(i, 0));
     if (i == 10) person.drop("wall.off");
@@ -701,9 +543,6 @@ TEST_F(Window, ALayerThatArrivesDuringADragStays) {
 
 // -- the document ---------------------------------------------------------------------------------
 
-/// In the dialog about unsaved changes, in a window of 720 x 720.
-constexpr glm::dvec2 save_and_leave_button{109, 349}, discard_button{181, 349};
-
 Person& undo(Person& person) { return person.press_with_control(Key::z).wait().without_notes(); }
 
 TEST_F(Window, ADocumentIsChangedUndoneSavedAndReopened) {
@@ -712,7 +551,7 @@ TEST_F(Window, ADocumentIsChangedUndoneSavedAndReopened) {
   person.wait().drop("floor.off").wait().press(Key::digit_7).wait().without_notes();
   person.look("before").begin_drag(degrees_x);
   for (int i = 1; i <= 20; ++i) person.point(degrees_x + glm::dvec2(i, 0));
-  person.end_drag().point({200, 540}).look("moved").click(remove_button).point({200, 540});
+  person.end_drag().point({200, 540}).look("moved").click("Remove").point({200, 540});
   person.look("removed");
   undo(person).look("moved again");
   undo(person).look("before again");  // the drag is one step
@@ -744,13 +583,13 @@ TEST_F(Window, AsksBeforeUnsavedChangesAreLost) {
   Person person({720, 720});
   person.wait().press(Key::i).press_with_control(Key::q).wait().without_notes().look("asked");
   person.press(Key::escape).look("open").press_with_control(Key::q).wait();
-  ChildResult result = replay(Person(person).click(discard_button).hold(Key::super, 1).look("end"));
+  ChildResult result = replay(Person(person).click("Discard").hold(Key::super, 1).look("end"));
   EXPECT_EQ(result.exit_code, 0) << result.err;
   expect_golden(image("asked"), "window_unsaved");
   EXPECT_TRUE(fs::exists(folder_ / "pictures" / "open.png"));
   EXPECT_FALSE(fs::exists(folder_ / "pictures" / "end.png"));
   const glm::vec3 up = read_scene(folder_ / "soup.glb").info.up;
-  result = replay(person.click(save_and_leave_button).wait().hold(Key::super, 1).look("end"));
+  result = replay(person.click("Save").hold(Key::super, 1).look("end"));
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_FALSE(fs::exists(folder_ / "pictures" / "end.png"));
   EXPECT_EQ(read_scene(folder_ / "soup.glb").info.up, -up);
@@ -765,7 +604,7 @@ TEST_F(Window, ReadingAgainKeepsTheHistory) {
   write_square(folder_ / "floor.off", "255 0 0");
   write_square(folder_ / "next.off", "0 0 255");
   Person person({720, 720});
-  person.wait().press(Key::digit_7).wait().click(second_name).click(remove_button).press(Key::h);
+  person.wait().press(Key::digit_7).wait().click("layer: floor").click("Remove").press(Key::h);
   person.wait().without_notes().look("removed").replace("floor.off", "next.off").press(Key::f5);
   person.wait();
   // The file of the restored layer has changed meanwhile.
@@ -889,10 +728,10 @@ class TracedWindow : public WindowAtRest {
 TEST_F(TracedWindow, ShowsAndSavesTheImageOfRaysWhileNothingMoves) {
   Person person({320, 200});
   person.wait().press(Key::h).press(Key::right_bracket).without_notes();
-  person.look("raster").press(Key::g).look("first");
+  person.look("raster").press(Key::l).look("first");
   // While it moves, the rasteriser draws.
   person.press(Key::digit_7).take("moving").press(Key::right_bracket).look("second");
-  person.press(Key::p).wait().without_notes().press(Key::g).look("off");
+  person.press(Key::p).wait().without_notes().press(Key::l).look("off");
   const ChildResult result = replay_both(person);
   EXPECT_EQ(result.exit_code, 0) << result.err;
   const Image8 first = by_rays("soup.glb:0"), second = by_rays("soup.glb:1");
@@ -915,10 +754,6 @@ TEST_F(TracedWindow, IsSmoothAtRestAndBeginsAnewAfterAChange) {
   EXPECT_GE(psnr(image("smooth"), by_rays("soup.glb:1", "64")), min_psnr);
 }
 
-/// Positions in the panel Training in a window of 720 x 640, from the golden.
-constexpr glm::dvec2 pause_button{411, 604}, stop_button{510, 604}, stop_now_button{492, 578},
-    pause_without_log{411, 340};
-
 /// A run of 1,000 steps in its 250th.
 void write_run(const fs::path& folder,
                trainer::PrimitiveKind kind = trainer::PrimitiveKind::triangles) {
@@ -940,11 +775,11 @@ TEST_F(Window, FollowsATraining) {
   write_run(folder_);
   const trainer::RunControl run(folder_ / "run.control");
   fs::copy(folder_ / "soup.glb", folder_ / "next.glb");
-  Person person({720, 640});
+  Person person({720, 720});
   person.wait().press(Key::digit_7).wait().look("running");
   // The next snapshot keeps the view, without a note.
   person.replace("soup.glb", "next.glb").hold(Key::super, 4).look("again");
-  person.click(pause_button).point({200, 300}).look("paused");
+  person.click("Pause").point({200, 300}).look("paused");
   const std::vector<std::string> arguments{"soup.glb", "--training", "run.jsonl"};
   ChildResult result = replay(person, arguments);
   EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -954,12 +789,13 @@ TEST_F(Window, FollowsATraining) {
   EXPECT_EQ(trainer::read_command(folder_ / "run.control"), trainer::RunCommand::pause);
 
   // The same button continues the run; the other one asks before it stops it.
-  Person stopping({720, 640});
-  stopping.wait().click(pause_button).wait().click(stop_button).wait().look("asked");
+  Person stopping({720, 720});
+  stopping.wait().click("Continue").click("Stop and keep").look("asked");
   EXPECT_EQ(replay(stopping, arguments).exit_code, 0);
   EXPECT_EQ(trainer::read_command(folder_ / "run.control"), trainer::RunCommand::run);
-  stopping.click(stop_now_button).wait();
-  EXPECT_EQ(replay(stopping, arguments).exit_code, 0);
+  Person stopped({720, 720});
+  stopped.wait().click("Stop and keep").click("Stop now");
+  EXPECT_EQ(replay(stopped, arguments).exit_code, 0);
   EXPECT_EQ(trainer::read_command(folder_ / "run.control"), trainer::RunCommand::finish);
 }
 
@@ -995,8 +831,7 @@ TEST_F(ThoroughWindow, FollowsATrainingWhoseSplatsBecomeASoup) {
 }
 
 TEST_F(ThoroughWindow, FollowsATrainingWithoutALogOrARun) {
-  const Person person =
-      Person({720, 640}).wait().click(pause_without_log).click(pause_button).look("training");
+  const Person person = Person({720, 800}).wait().click("Pause").look("training");
   const std::vector<std::string> arguments{"soup.glb", "--training", "run.jsonl"};
   EXPECT_EQ(replay(person, arguments).exit_code, 0);
   const Image8 none = image("training");
@@ -1010,10 +845,8 @@ TEST_F(ThoroughWindow, FollowsATrainingWithoutALogOrARun) {
   EXPECT_FALSE(fs::exists(folder_ / "run.control"));
 }
 
-/// Positions in the card of photographs without a scene, and in the dialog before the window is
-/// closed during a training, in a window of 720 x 450.
-constexpr glm::dvec2 train_button{157, 142}, stop_and_quit_button{147, 235},
-    words_of_dialog{360, 172};
+/// A place without a control in the dialog that starts a training, in a window of 720 x 450.
+constexpr glm::dvec2 words_of_dialog{360, 172};
 
 /// While it exists, programs that a window has started become children of this process when the
 /// window ends.
@@ -1082,7 +915,7 @@ TEST_F(Window, ATrainingStartsOnlyAfterAQuestion) {
   write_photographs();
   const LeftPrograms left;
   Person person;
-  person.drop("photographs").wait().look("photographs").click(train_button).look("asked");
+  person.drop("photographs").wait().look("photographs").click("Train a scene").look("asked");
   // Outside of its field, its keys are no shortcuts; Escape closes the dialog alone.
   person.without_notes().click(words_of_dialog).look("words").press(Key::f1).press(Key::t);
   person.look("behind").press(Key::escape).look("cancelled");
@@ -1097,8 +930,8 @@ TEST_F(Window, ClosedDuringItsTrainingAsksWhetherToStopIt) {
   write_photographs();
   const LeftPrograms left;
   Person person;
-  person.drop("photographs").wait().click(train_button).wait().press(Key::enter).wait();
-  person.press_with_control(Key::q).look("asked").click(stop_and_quit_button);
+  person.drop("photographs").wait().click("Train a scene").press(Key::enter).wait();
+  person.press_with_control(Key::q).look("asked").click("Stop the training");
   EXPECT_EQ(replay(person.hold(Key::super, 5).look("closed"), {}).exit_code, 0);
   EXPECT_TRUE(fs::exists(folder_ / "pictures" / "asked.png"));
   EXPECT_FALSE(fs::exists(folder_ / "pictures" / "closed.png"));

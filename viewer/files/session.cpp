@@ -84,10 +84,18 @@ Event event_of(const JsonView& view) {
     if (files->size() != 2) files->fail("expected a file and its replacement");
     return FileReplaced{.from = files->at(1).text(), .to = files->at(0).text()};
   }
+  if (const auto name = view.find("click")) {
+    ControlClicked clicked{.name = name->text()};
+    if (const auto by = view.find("by")) {
+      const auto [x, y] = pair_of(*by);
+      clicked.by = {x, y};
+    }
+    return clicked;
+  }
   if (const auto name = view.find("picture")) return WindowScreenshot{name->text()};
   view.fail(
       "an event is one of pointer, button, wheel, key, text, code_point, drop, resize, focus, "
-      "close, await, replace and picture");
+      "close, await, replace, click and picture");
 }
 
 struct ToJson {
@@ -106,6 +114,11 @@ struct ToJson {
   Json operator()(const CloseAsked&) const { return {{"close", true}}; }
   Json operator()(const AwaitRest&) const { return {{"await", true}}; }
   Json operator()(const FileReplaced& event) const { return {{"replace", {event.to, event.from}}}; }
+  Json operator()(const ControlClicked& event) const {
+    Json json{{"click", event.name}};
+    if (event.by.x != 0 || event.by.y != 0) json["by"] = {event.by.x, event.by.y};
+    return json;
+  }
   Json operator()(const WindowScreenshot& event) const { return {{"picture", event.name}}; }
 };
 

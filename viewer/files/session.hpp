@@ -14,13 +14,17 @@
 //                 {"at": 1.4,  "drop": ["other.glb"]},
 //                 {"at": 1.5,  "resize": [800, 600]},
 //                 {"at": 1.6,  "replace": ["other.glb", "with.glb"]},
+//                 {"at": 1.7,  "click": "Frame all"},
+//                 {"at": 1.8,  "click": "gizmo: x", "by": [40, 0]},
 //                 {"at": 2.0,  "picture": "after.png"},
 //                 {"at": 2.1,  "close": true} ] }
 //
 // "at" is in seconds since the start of the session and never decreases. "await" stops the clock
 // until nothing is being loaded and nothing moves. "picture" saves the window as a PNG in the
-// folder for images (`--images`). "replace" copies the second file over the first, as a running
-// trainer does. Other relative paths start at the program's working folder.
+// folder for images (`--images`). "click" clicks the control with this name, or drags it by a
+// distance; the program ends with an error if none is in sight. "replace" copies the second file
+// over the first, as a running trainer does. Other relative paths start at the program's working
+// folder.
 #pragma once
 
 #include <filesystem>

@@ -10,6 +10,7 @@
 
 #include "viewer/gui/font.hpp"
 #include "viewer/gui/gui_drawing.hpp"
+#include "viewer/gui/item_places.hpp"
 #include "viewer/gui/theme.hpp"
 
 namespace tureen::viewer {
@@ -125,6 +126,7 @@ void Gui::begin(const Frame& frame) {
 }
 
 void Gui::draw() {
+  end_item_notes();
   ImGui::Render();
   drawing_->draw(*ImGui::GetDrawData());
 }

@@ -71,14 +71,21 @@ struct WindowScreenshot {
   std::string name;
 };
 
+/// Only in sessions: a click on the control with this name, wherever it is: the label of a button,
+/// switch, field or choice, "tab: Drawing", "section: Image", "layer: house", "gizmo: x".
+struct ControlClicked {
+  std::string name;
+  PointerMoved by = {};  // a drag over this distance, if it is not 0
+};
+
 /// Only in sessions: copies one file over another, as another program does.
 struct FileReplaced {
   std::string from, to;
 };
 
-using Event =
-    std::variant<PointerMoved, ButtonChanged, Scrolled, KeyChanged, TextTyped, FilesDropped,
-                 Resized, FocusChanged, CloseAsked, AwaitRest, FileReplaced, WindowScreenshot>;
+using Event = std::variant<PointerMoved, ButtonChanged, Scrolled, KeyChanged, TextTyped,
+                           FilesDropped, Resized, FocusChanged, CloseAsked, AwaitRest, FileReplaced,
+                           WindowScreenshot, ControlClicked>;
 
 struct TimedEvent {
   double seconds = 0;  // since the session began

@@ -7,8 +7,10 @@ namespace tureen::viewer {
 
 void dataset_buttons(State& state) {
   if (!state.started) {
-    if (strong_button("Train a scene"))
+    if (strong_button("Train a scene")) {
       state.scene_to_train = new_trained_scene(state.photographs->path).string();
+      state.ask(MeasureTraining{});
+    }
     tip("tureen train with these photographs; asks for the file first");
     beside("Copy the command");
   }

@@ -23,22 +23,18 @@ void debug_view_panel(State& state) {
   const SceneSource& source = state.source;
   DebugViewChoice& debug_view = state.debug_view;
   const DebugViewName& current = debug_view_names()[std::size_t(debug_view.what)];
+  const Subjects subjects = subjects_of(source);
   field("View");
   if (ImGui::BeginCombo("##view", current.title, ImGuiComboFlags_HeightLarge)) {
     for (const DebugViewName& each : debug_view_names()) {
-      const std::optional<std::string> reason = why_not(each.what, source);
-      {
-        const Disabled disabled(reason.has_value());
-        if (ImGui::Selectable(each.title, each.what == debug_view.what))
-          debug_view.what = each.what;
-      }
-      if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
-        ImGui::SetTooltip("%s", reason ? reason->c_str() : each.meaning);
+      if (why_not(each.what, source)) continue;
+      if (list_item(each.title, each.what == debug_view.what)) debug_view.what = each.what;
+      tip(meaning_of(each, subjects));
     }
     ImGui::EndCombo();
   }
   tip("V: next debug view");
-  aside(current.meaning);
+  aside(meaning_of(current, subjects));
   if (debug_view.what == DebugView::features)
     feature_choice(debug_view.features, feature_count(source));
   if (debug_view.what != DebugView::color && state.stage->debug_views)

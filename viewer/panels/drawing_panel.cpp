@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "runtime/plan/plan_description.hpp"
+#include "viewer/gui/item_places.hpp"
 #include "viewer/panels.hpp"
 #include "viewer/panels/widgets.hpp"
 
@@ -32,9 +33,25 @@ void sampling(State& state) {
   field("Resolution");
   if (!ImGui::BeginCombo("##resolution", current)) return;
   for (const auto& each : samplings)
-    if (ImGui::Selectable(each.name, each.name == current))
+    if (list_item(each.name, each.name == current))
       state.edit(ChangeQuality{{each.scale, each.supersampling, quality.splat_order}});
   ImGui::EndCombo();
+}
+
+void background_rows(State& state) {
+  glm::vec3 color = background_of(state.source);
+  field("Background");
+  ImGui::SetNextItemWidth(9 * ImGui::GetFontSize());
+  if (ImGui::ColorEdit3("##background", &color.x, ImGuiColorEditFlags_DisplayHex))
+    state.edit(ChangeBackground{color}, true);
+  ImGui::SameLine();
+  {
+    const Disabled disabled(!state.source.document.background);
+    if (button("Reset")) state.edit(ChangeBackground{});
+  }
+  tip("Use the scene's background");
+  check("Checks", &state.shows_checks);
+  tip("Show the image without a background, over checks");
 }
 
 /// The rules of rendering splats. Returns whether the choice changed.
@@ -49,7 +66,7 @@ bool splat_rules(State& state, DrawingChoice& choice) {
   const std::string current = profile ? std::string(name_of(*profile)) : own;
   field("Profile");
   if (ImGui::BeginCombo("##profile", current.c_str())) {
-    if (ImGui::Selectable(own.c_str(), !profile)) state.edit(ChangeProfile{});
+    if (list_item(own, !profile)) state.edit(ChangeProfile{});
     for (const NamedProfile& each : named_profiles) {
       // Of methods with equal profiles, the first.
       if (name_of(each.profile) != each.name) continue;
@@ -57,7 +74,7 @@ bool splat_rules(State& state, DrawingChoice& choice) {
             return profile_defect(of_layer->kernel, each.profile).has_value();
           }))
         continue;
-      if (ImGui::Selectable(std::string(each.name).c_str(), profile == each.profile))
+      if (list_item(std::string(each.name), profile == each.profile))
         state.edit(ChangeProfile{each.profile});
     }
     ImGui::EndCombo();
@@ -96,11 +113,27 @@ bool specialisations(DrawingChoice& choice, const RenderPlan& plan) {
   return changed;
 }
 
+/// The plan in sentences, and its specialisations. Returns whether the choice changed.
+bool plan_rows(DrawingChoice& choice, const RenderPlan& plan) {
+  const bool open = ImGui::TreeNode("Plan and specialisations");
+  note_item("Plan and specialisations");
+  if (!open) return false;
+  bool changed = false;
+  if (choice.pipeline == PipelineKind::tureen) {
+    changed |= check("Specialise for the scene", &choice.plan.specialise);
+    if (choice.plan.specialise) changed |= specialisations(choice, plan);
+  }
+  for (const std::string& each : describe(plan)) sentence(each);
+  ImGui::TreePop();
+  return changed;
+}
+
 }  // namespace
 
 void drawing_panel(State& state) {
   Stage& stage = *state.stage;
   DrawingChoice choice = state.wanted;
+  background_rows(state);
   sampling(state);
   check("Smooth at rest", &state.settings.smooth_at_rest);
   tip("While nothing moves, draw 64 frames with other samples and show their mean. Saved images "
@@ -113,20 +146,11 @@ void drawing_panel(State& state) {
     changed = true;
   }
   tip("Soups by a reimplementation of the published DiffSoup viewer, splats as plain quads");
-  if (stage.debug_views) {
+  if (stage.debug_views)  // the plan is not that of the choice
     aside("Debug views are drawn without these choices.");
-  } else if (!baseline) {
-    changed |= check("Specialise for the scene", &choice.plan.specialise);
-    if (choice.plan.specialise) {
-      ImGui::Indent();
-      changed |= specialisations(choice, stage.renderer.plan());
-      ImGui::Unindent();
-    }
-  }
+  else
+    changed |= plan_rows(choice, stage.renderer.plan());
   if (changed) state.ask(ChooseDrawing{choice});
-  if (stage.debug_views) return;  // the plan is not that of the choice
-  heading("Drawing plan and specialisations");
-  for (const std::string& each : describe(stage.renderer.plan())) sentence(each);
 }
 
 }  // namespace tureen::viewer

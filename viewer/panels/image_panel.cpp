@@ -32,13 +32,13 @@ void size_rows(ImageWish& wish) {
       if (each.size == wish.size) current = each.text;
   field("Size");
   if (ImGui::BeginCombo("##size", current, ImGuiComboFlags_HeightLarge)) {
-    if (ImGui::Selectable(as_shown, wish.window_size)) wish.window_size = true;
+    if (list_item(as_shown, wish.window_size)) wish.window_size = true;
     for (const auto& each : sizes)
-      if (ImGui::Selectable(each.text, current == each.text)) {
+      if (list_item(each.text, current == each.text)) {
         wish.window_size = wish.other_size = false;
         wish.size = each.size;
       }
-    if (ImGui::Selectable(other, current == other)) {
+    if (list_item(other, current == other)) {
       wish.window_size = false;
       wish.other_size = true;
     }

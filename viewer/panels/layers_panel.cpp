@@ -13,8 +13,10 @@
 #include <vector>
 
 #include "base/decimal_text.hpp"
+#include "viewer/gui/item_places.hpp"
 #include "viewer/panels.hpp"
 #include "viewer/panels/widgets.hpp"
+#include "viewer/scene/placing.hpp"
 
 namespace tureen::viewer {
 
@@ -29,6 +31,7 @@ constexpr float max_ior = 4.0f;
 bool layer_row(State& state, const DocumentLayer& layer, bool selected) {
   bool visible = layer.visible;
   if (check("##visible", &visible)) state.edit(ShowLayer{layer.id, visible});
+  note_item("visible: " + layer.name);
   tip("Show");
   ImGui::SameLine();
   const std::string count = counted(primitive_count(layer));
@@ -36,6 +39,7 @@ bool layer_row(State& state, const DocumentLayer& layer, bool selected) {
   const float gap = ImGui::GetStyle().ItemSpacing.x;
   const bool clicked =
       ImGui::Selectable("##layer", selected, 0, {count_left - gap - ImGui::GetCursorPosX(), 0});
+  note_item("layer: " + layer.name);
   const bool hovered = ImGui::IsItemHovered();
   // Not the label of the selectable: names come from files, and "##" has a meaning for Dear ImGui,
   // which enlarges the row by half the space between items.
@@ -135,6 +139,37 @@ void surface_row(State& state, const DocumentLayer& layer) {
   tip("Index of refraction: 1 changes no direction, water has 1.333, glass 1.5");
 }
 
+void gizmo_rows(GizmoState& gizmo) {
+  static constexpr const char* tools[] = {"Off", "Move", "Turn", "Scale"};
+  int tool = int(gizmo.tool);
+  field("Gizmo");
+  segments("gizmo", tools, tool);
+  tip("G: handles on the selected layer. With Ctrl, they move in round steps, turn by 15\u00b0 and "
+      "scale by tenths");
+  gizmo.tool = GizmoTool(tool);
+  if (gizmo.tool == GizmoTool::off || gizmo.tool == GizmoTool::scale) return;
+  static constexpr const char* axes[] = {"World", "Layer"};
+  int chosen = int(gizmo.axes);
+  field("Axes");
+  segments("axes", axes, chosen);
+  tip("The axes along which the gizmo moves, and about which it turns");
+  gizmo.axes = GizmoAxes(chosen);
+}
+
+void place_buttons(State& state, const DocumentLayer& layer) {
+  if (button("Set on the ground", std::floor(0.42f * ImGui::GetContentRegionAvail().x)))
+    state.edit(PlaceLayer{layer.id, on_the_ground(layer, state.controls.up())});
+  tip("Moves the layer along the up axis until its lowest point is at height 0");
+  ImGui::SameLine();
+  if (button("Center", share_of_row(2))) state.edit(PlaceLayer{layer.id, in_the_middle(layer)});
+  tip("Moves the middle of the layer to the origin");
+  ImGui::SameLine();
+  const Layer* const read = state.source.as_read(layer);
+  const Disabled disabled(!read || read->world_from_layer == layer.world_from_layer);
+  if (button("Reset", share_of_row(1))) state.edit(PlaceLayer{layer.id, read->world_from_layer});
+  tip("The position, rotation, scale and mirror that the file gives");
+}
+
 void order_buttons(State& state, std::size_t index) {
   const std::vector<DocumentLayer>& layers = state.source.document.layers;
   const LayerId id = layers[index].id;
@@ -159,9 +194,7 @@ void order_buttons(State& state, std::size_t index) {
 
 void layers_panel(State& state) {
   const std::vector<DocumentLayer>& layers = state.source.document.layers;
-  std::size_t selected = 0;
-  for (std::size_t i = 0; i < layers.size(); ++i)
-    if (layers[i].id == state.layer_editing.selected) selected = i;
+  const auto selected = std::size_t(&state.selected_layer() - layers.data());
   for (std::size_t i = 0; i < layers.size(); ++i) {
     ImGui::PushID(int(layers[i].id));
     if (layer_row(state, layers[i], i == selected)) state.layer_editing.selected = layers[i].id;
@@ -170,16 +203,12 @@ void layers_panel(State& state) {
   const DocumentLayer& layer = layers[selected];
   // Otherwise a field that is being edited would pass its number on to the next selected layer.
   ImGui::PushID(int(layer.id));
+  gizmo_rows(state.gizmo);
   name_row(state, layer);
   place_of(state, layer);
   ImGui::PopID();
-  const Layer* const read = state.source.as_read(layer);
-  {
-    const Disabled disabled(!read || read->world_from_layer == layer.world_from_layer);
-    if (button("Reset the place")) state.edit(PlaceLayer{layer.id, read->world_from_layer});
-    tip("The position, rotation, scale and mirror that the file gives");
-  }
-  order_buttons(state, selected);
+  place_buttons(state, layer);
+  if (layers.size() > 1) order_buttons(state, selected);
   ImGui::PushID(int(layer.id));
   surface_row(state, layer);
   ImGui::PopID();

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
+#include "viewer/gui/item_places.hpp"
 #include "viewer/panels/widgets.hpp"
 
 namespace tureen::viewer {
@@ -22,6 +24,7 @@ bool section_header(const char* title, bool first_open) {
   ImGui::SetCursorScreenPos({low.x - padding, low.y});
   bool& open = *ImGui::GetStateStorage()->GetBoolRef(ImGui::GetID("open"), first_open);
   if (ImGui::InvisibleButton("header", size)) open = !open;
+  note_item(std::string("section: ") + title);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
   if (ImGui::IsItemHovered())
@@ -67,6 +70,31 @@ void section(const char* title, bool open, Draw draw) {
   ImGui::PopID();
 }
 
+void scene_tab(State& state) {
+  section("Scene", true, [&] { scene_panel(state); });
+  if (state.training) section("Training", true, [&] { training_panel(state); });
+  section("Layers", true, [&] { layers_panel(state); });
+}
+
+void drawing_tab(State& state, const FrameClock& clock) {
+  section("Debug view", true, [&] { debug_view_panel(state); });
+  section("Drawing", true, [&] { drawing_panel(state); });
+  section("Frame times", false, [&] { times_panel(state, clock); });
+  section("Window", true, [&] { window_panel(state); });
+}
+
+void camera_tab(State& state) {
+  section("View", true, [&] { view_panel(state); });
+  if (state.photographs) {
+    ImGui::PushID("dataset");  // it opens, whether the section below was open or not
+    section("Photographs", true, [&] { comparison_panel(state); });
+    ImGui::PopID();
+  }
+  section("Image", true, [&] { image_panel(state); });
+  if (!state.photographs) section("Photographs", false, [&] { comparison_panel(state); });
+  section("Camera path", false, [&] { path_panel(state); });
+}
+
 }  // namespace
 
 double panels_width(const State& state, double window_width) {
@@ -93,19 +121,27 @@ void draw_panels(State& state, const FrameClock& clock) {
   // Popups have the theme's own style.
   ImGui::PopStyleColor();
   ImGui::PopStyleVar(3);
-  section("Scene", true, [&] { scene_panel(state); });
-  if (state.training) section("Training", true, [&] { training_panel(state); });
-  // A single unchanged layer needs no list.
-  if (state.source.document.layers.size() > 1 || !state.source.is_as_read())
-    section("Layers", true, [&] { layers_panel(state); });
-  section("View", true, [&] { view_panel(state); });
-  section("Debug view", true, [&] { debug_view_panel(state); });
-  section("Drawing", false, [&] { drawing_panel(state); });
-  section("Photographs", false, [&] { comparison_panel(state); });
-  section("Image", false, [&] { image_panel(state); });
-  section("Camera path", false, [&] { path_panel(state); });
-  section("Frame times", false, [&] { times_panel(state, clock); });
-  section("Window", false, [&] { window_panel(state); });
+  static constexpr const char* tabs[] = {"Scene", "Drawing", "Camera"};
+  int tab = int(state.tab);
+  segments("tab", tabs, tab);
+  state.tab = PanelTab(tab);
+  // Each scrolls on its own. The cards reach into the padding.
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(padding, 0));
+  ImGui::SetCursorPosX(0);
+  ImGui::BeginChild(tabs[tab], {width, 0}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+  ImGui::PopStyleVar();
+  switch (state.tab) {
+    case PanelTab::scene:
+      scene_tab(state);
+      break;
+    case PanelTab::drawing:
+      drawing_tab(state, clock);
+      break;
+    case PanelTab::camera:
+      camera_tab(state);
+      break;
+  }
+  ImGui::EndChild();
   ImGui::End();
 }
 
@@ -113,6 +149,7 @@ void draw_overlays(State& state) {
   if (!state.stage) welcome_overlay(state);
   traced_overlay(state);
   if (state.stage) photograph_overlay(state);
+  if (state.stage) gizmo_overlay(state);
   if (state.show_interface) status_overlay(state);
   progress_overlay(state);
   message_overlay(state);

@@ -129,12 +129,20 @@ void path_panel(State& state) {
   if (ImGui::DragFloat("##turn", &seconds, 0.05f, 0.5f, 600, "%.1f s",
                        ImGuiSliderFlags_AlwaysClamp))
     animation.turn_seconds = seconds;
+  if (!state.recorded_cameras().empty()) {
+    if (button("Fly along the cameras")) state.ask(FlyAlongCameras{});
+    tip("A smooth path along the recorded cameras; replaces the path");
+  }
   if (animation.path.empty()) {
     aside("Add views: they become a smooth camera path.");
   } else {
     play_row(animation);
     loop_row(animation);
+    // Flights along cameras have many.
+    const float shown = std::min(float(animation.path.data().keyframes.size()), 6.0f);
+    ImGui::BeginChild("keyframes", {0, shown * ImGui::GetFrameHeightWithSpacing()});
     for (std::size_t i = 0; i < animation.path.data().keyframes.size(); ++i) keyframe_row(state, i);
+    ImGui::EndChild();
   }
   file_row(state);
   if (!animation.path.empty()) animation_rows(state);

@@ -77,7 +77,7 @@ void photograph_overlay(State& state) {
   const float edge = split ? divider(comparison, window) : window.x;
   list.PushClipRect({0, 0}, {edge, window.y});
   // Transparent parts of the photograph show the scene's background.
-  const glm::vec3 back = state.source.scene->info.background;
+  const glm::vec3 back = background_of(state.source);
   list.AddRectFilled(low, high, ImGui::GetColorU32(ImVec4(back.r, back.g, back.b, 1)));
   list.AddImage(texture->id(), low, high);
   list.PopClipRect();

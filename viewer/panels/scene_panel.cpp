@@ -50,6 +50,21 @@ std::string appearances(const Document& document) {
   return all;
 }
 
+/// The box around all layers, and its extent.
+void box_facts(const Document& document) {
+  const Subject box =
+      subject_of(std::vector<LayerPlace>(document.layers.begin(), document.layers.end()), {});
+  const glm::dvec3 extent = box.high - box.low;
+  const auto list = [](const glm::dvec3& v) {
+    return fmt::format("{:.4g}, {:.4g}, {:.4g}", v.x, v.y, v.z);
+  };
+  fact("Extent", fmt::format("{:.4g} \u00d7 {:.4g} \u00d7 {:.4g}", extent.x, extent.y, extent.z));
+  tip("Of the box around all layers along x, y and z, in world units. Splats far from all others "
+      "do not count");
+  fact("Box", fmt::format("{}\nto {}", list(box.low), list(box.high)));
+  tip("Its lowest and its highest corner: x, y, z");
+}
+
 /// Powers of 1000, as on the page: "9.4 MB", "151 MB".
 std::string megabytes(std::size_t bytes) {
   const double value = 1e-6 * double(bytes);
@@ -98,9 +113,15 @@ void history_buttons(State& state) {
   steps_menu(state);
 }
 
-}  // namespace
+/// Closed at first: a message has shown them when the scene was opened.
+void notes_rows(const SceneInfo& info) {
+  const std::vector<std::string> notes = window_notes(info);
+  if (notes.empty() || !ImGui::TreeNode("notes", "Notes (%zu)", notes.size())) return;
+  for (const std::string& note : notes) aside(note);
+  ImGui::TreePop();
+}
 
-void scene_panel(State& state) {
+void fact_rows(const State& state) {
   const SceneSource& source = state.source;
   const Document& document = source.document;
   const SceneInfo& info = source.scene->info;
@@ -112,14 +133,22 @@ void scene_panel(State& state) {
   }
   if (!info.source.empty()) fact("Source", info.source);
   fact("Size", size_text(document));
+  box_facts(document);
   fact("Appearance", appearances(document));
   fact("GPU memory", megabytes(state.stage->renderer.device_bytes()));
   tip(fmt::format("read in {:.2f} s, prepared in {:.2f} s", source.read_seconds,
                   state.stage->prepare_seconds));
-  if (const auto notes = window_notes(info); !notes.empty()) {
-    heading("Notes");
-    for (const std::string& note : notes) aside(note);
-  }
+}
+
+}  // namespace
+
+void scene_panel(State& state) {
+  // Many short rows: closer than those of fields.
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing,
+                      ImVec2(ImGui::GetStyle().ItemSpacing.x, 0.2f * ImGui::GetFontSize()));
+  fact_rows(state);
+  ImGui::PopStyleVar();
+  notes_rows(state.source.scene->info);
   if (button("Open")) state.show_files = true;
   tip("O: replaces the scene, or adds layers to it, as scenes do that are dropped on the window");
   ImGui::SameLine();

@@ -4,7 +4,9 @@
 #include <imgui/imgui_stdlib.h>
 // clang-format on
 
+#include <algorithm>
 #include <string>
+#include <utility>
 
 #include "base/decimal_text.hpp"
 #include "viewer/names.hpp"
@@ -29,30 +31,60 @@ void option_field(const MethodOption& option, std::string& value) {
   if (option.type != MethodOption::Type::word) {
     ImGui::InputTextWithHint(id.c_str(), "default", &value);
   } else if (ImGui::BeginCombo(id.c_str(), value.empty() ? "default" : value.c_str())) {
-    if (ImGui::Selectable("default", value.empty())) value.clear();
+    if (list_item("default", value.empty())) value.clear();
     for (const std::string& word : option.words)
-      if (ImGui::Selectable(word.c_str(), word == value)) value = word;
+      if (list_item(word, word == value)) value = word;
     ImGui::EndCombo();
   }
   tip(option.help);
+}
+
+void size_field(TrainingChoice& choice) {
+  static constexpr std::pair<const char*, const char*> scales[] = {{"", "by the minutes, or full"},
+                                                                   {"1", "full"},
+                                                                   {"0.5", "a half"},
+                                                                   {"0.25", "a quarter"},
+                                                                   {"0.125", "an eighth"}};
+  const auto* const chosen = std::ranges::find(
+      scales, choice.scale, [](const auto& each) { return std::string(each.first); });
+  field("photographs");
+  if (ImGui::BeginCombo("##scale", chosen->second)) {
+    for (const auto& [scale, words] : scales)
+      if (list_item(words, scale == choice.scale)) choice.scale = scale;
+    ImGui::EndCombo();
+  }
+  tip("Their width and height in the training: smaller ones give more steps in the same time");
 }
 
 void method_fields(TrainingChoice& choice) {
   field("Method");
   if (ImGui::BeginCombo("##method", choice.method->name)) {
     for (const TrainingMethodInfo* method : training_methods())
-      if (ImGui::Selectable((std::string(method->name) + ": " + method->summary).c_str(),
-                            method == choice.method))
+      if (list_item(std::string(method->name) + ": " + method->summary, method == choice.method))
         choice.method = method;
     ImGui::EndCombo();
   }
   tip(choice.method->summary);
+  const auto options = [&](bool common) {
+    for (const MethodOption* option : choice.method->options)
+      if (option->is_common == common) option_field(*option, choice.values[option->name]);
+  };
+  options(true);
+  size_field(choice);
   if (!ImGui::TreeNode("Options")) return;
   field("steps");
   ImGui::InputTextWithHint("##steps", "default", &choice.steps);
-  for (const MethodOption* option : choice.method->options)
-    option_field(*option, choice.values[option->name]);
+  options(false);
   ImGui::TreePop();
+}
+
+/// The length and the size of the chosen training, by the speed of this computer.
+void forecast_row(const State& state) {
+  const FullPhotographs& full = state.photographs->full;
+  if (full.cameras.empty()) return;
+  fact("Forecast", state.training_seconds
+                       ? forecast_text(state.training_choice, full, *state.training_seconds)
+                       : "measuring this computer ..");
 }
 
 void start_dialog(State& state) {
@@ -67,7 +99,10 @@ void start_dialog(State& state) {
   const bool entered = ImGui::InputText("##scene", &scene, ImGuiInputTextFlags_EnterReturnsTrue);
   const TypedScene typed = check_typed_scene(scene);
   if (!typed.remark.empty()) aside(typed.remark);
-  if (!typed.is_unfinished) method_fields(state.training_choice);
+  if (!typed.is_unfinished) {
+    method_fields(state.training_choice);
+    forecast_row(state);
+  }
   aside("Another window shows the progress, and pauses or ends the training.");
   const bool pressed = [&] {
     const Disabled disabled(!typed.is_possible);

@@ -43,8 +43,7 @@ void up_menu(State& state) {
   field("Up");
   if (ImGui::BeginCombo("##up", axis_name(controls.up()).c_str())) {
     for (const glm::dvec3& axis : up_axes)
-      if (ImGui::Selectable(axis_name(axis).c_str(), is_axis(controls.up(), axis)))
-        controls.set_up(axis);
+      if (list_item(axis_name(axis), is_axis(controls.up(), axis))) controls.set_up(axis);
     ImGui::EndCombo();
   }
   tip(describe(state.source.up) + ". U changes it, R restores it");
@@ -55,11 +54,10 @@ void recorded_slider(State& state) {
   if (cameras.empty()) return;
   int index = std::min(state.recorded, int(cameras.size()) - 1);
   // The slider needs a printf format, but names come from files, so "%" is escaped.
-  std::string name = index < 0 ? "none" : fmt::format("{}: ", index);
+  std::string name = index < 0 ? "recorded cameras: none" : fmt::format("{}: ", index);
   if (index >= 0)
     for (const char letter : cameras[std::size_t(index)]->name)
       name += letter == '%' ? std::string("%%") : std::string(1, letter);
-  heading("Recorded cameras");
   const float side = ImGui::GetFrameHeight();
   if (button("<", side)) run_shortcut(Key::left_bracket, With::nothing, state);
   tip("[: previous camera");
@@ -81,12 +79,16 @@ void view_panel(State& state) {
   CameraControls& controls = state.controls;
   mode_buttons(controls);
   named_view_buttons(controls);
-  const float half = share_of_row(2);
-  if (button("Frame all", half)) run_shortcut(Key::f, With::nothing, state);
+  const float quarter = share_of_row(4);
+  if (button("Frame all", quarter)) run_shortcut(Key::f, With::nothing, state);
   tip("F: frame the whole scene");
   ImGui::SameLine();
-  if (button("First view", half)) run_shortcut(Key::r, With::nothing, state);
+  if (button("First view", quarter)) run_shortcut(Key::r, With::nothing, state);
   tip("R: return to the first view");
+  ImGui::SameLine();
+  if (button("Keep as first view", share_of_row(1)))
+    state.edit(ChangeFirstView{controls.camera(state.pixels.x, state.pixels.y)});
+  tip("The scene begins with this view, here and in the file that is saved");
   up_menu(state);
   auto fov = static_cast<float>(controls.fov() * degrees_per_radian);
   field("Angle");

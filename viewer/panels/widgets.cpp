@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/vec4.hpp>
 
+#include "viewer/gui/item_places.hpp"
+
 namespace tureen::viewer {
 
 namespace {
@@ -38,7 +40,9 @@ void unformatted(const std::string& words) {
 /// A button without a frame's border: only fields have one.
 bool plain_button(const char* label, ImVec2 size) {
   const StyleVar border(ImGuiStyleVar_FrameBorderSize, 0.0f);
-  return ImGui::Button(label, size);
+  const bool pressed = ImGui::Button(label, size);
+  note_item(label);
+  return pressed;
 }
 
 /// Draws a label of the column and moves to its control.
@@ -103,6 +107,7 @@ void legend_rows(const Legend& legend) {
 void field(const char* name) {
   ImGui::AlignTextToFramePadding();
   label(name);
+  note_field(name);
   ImGui::SetNextItemWidth(-FLT_MIN);
 }
 
@@ -124,7 +129,9 @@ void beside(const char* label) {
 
 bool small_button(const char* name) {
   const StyleVar border(ImGuiStyleVar_FrameBorderSize, 0.0f);
-  return ImGui::SmallButton(name);
+  const bool pressed = ImGui::SmallButton(name);
+  note_item(name);
+  return pressed;
 }
 
 bool strong_button(const char* name) {
@@ -145,7 +152,9 @@ bool check(const char* name, bool* on) {
   const ImGuiStyle& style = ImGui::GetStyle();
   const StyleVar padding(ImGuiStyleVar_FramePadding, ImVec2(style.FramePadding.x, 1));
   const StyleVar rounding(ImGuiStyleVar_FrameRounding, 0.5f * style.FrameRounding);
-  return ImGui::Checkbox(name, on);
+  const bool changed = ImGui::Checkbox(name, on);
+  note_item(name);
+  return changed;
 }
 
 bool check_beside_field(const char* name, bool* on) {
@@ -186,7 +195,9 @@ bool segments(const char* id, std::span<const char* const> labels, int& chosen) 
     const StyleColor back(ImGuiCol_Button, on ? style_color(ImGuiCol_FrameBg) : ImVec4(0, 0, 0, 0));
     const StyleColor front(ImGuiCol_Text,
                            style_color(on ? ImGuiCol_CheckMark : ImGuiCol_TextDisabled));
-    if (button(labels[std::size_t(i)], width) && !on) {
+    const bool pressed = button(labels[std::size_t(i)], width);
+    note_item(std::string(id) + ": " + labels[std::size_t(i)]);
+    if (pressed && !on) {
       chosen = i;
       changed = true;
     }
@@ -196,6 +207,12 @@ bool segments(const char* id, std::span<const char* const> labels, int& chosen) 
   ImGui::EndGroup();
   ImGui::PopID();
   return changed;
+}
+
+bool list_item(const std::string& name, bool chosen) {
+  const bool pressed = ImGui::Selectable(name.c_str(), chosen);
+  note_item(name);
+  return pressed;
 }
 
 void progress_bar(double fraction) {

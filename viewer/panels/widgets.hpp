@@ -37,7 +37,8 @@ void tip(const std::string& words);
 /// The legend of colours, one row each.
 void legend_rows(const Legend& legend);
 
-// -- controls -------------------------------------------------------------------------------------
+// -- controls, which sessions click by their labels (viewer/gui/item_places.hpp)
+// -------------------
 
 /// A dimmed label in the column of labels. The next item comes at its right and extends to the
 /// panel's edge.
@@ -60,6 +61,8 @@ bool check_beside_field(const char* label, bool* on);
 /// Buttons in one frame, of which one is on: of equal width, unless a label needs more. Returns
 /// whether the choice changed.
 bool segments(const char* id, std::span<const char* const> labels, int& chosen);
+/// A choice in an open list. Returns whether it was clicked.
+bool list_item(const std::string& name, bool chosen);
 /// A thin bar as wide as the window. `fraction`: 0..1.
 void progress_bar(double fraction);
 

@@ -37,6 +37,7 @@ Scene header_of(const SceneSource& source) {
   }
   scene.quality = document.quality;
   if (document.background) scene.info.background = *document.background;
+  if (document.first_view) scene.first_view = document.first_view;
   choose_up(scene.info, glm::vec3(document.up));
   return scene;
 }

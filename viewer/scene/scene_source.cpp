@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "camera/capture.hpp"
 #include "scene/middle_bounds.hpp"
 #include "viewer/names.hpp"
 
@@ -98,6 +99,15 @@ bool has_splats(const SceneSource& source) {
   });
 }
 
+glm::vec3 background_of(const SceneSource& source) {
+  return source.document.background.value_or(source.scene->info.background);
+}
+
+std::optional<Camera> first_view_of(const SceneSource& source) {
+  if (source.document.first_view) return source.document.first_view;
+  return first_view_of(source.scene->first_view, source.scene->cameras, source.up.axis);
+}
+
 std::vector<std::string> window_notes(const SceneInfo& info) {
   std::vector<std::string> notes = info.notes;
   for (const Remark& remark : info.remarks) notes.push_back(describe(remark) + control_of(remark));
@@ -135,6 +145,12 @@ std::vector<DocumentLayer> layers_for_rays(const SceneSource& source,
     layer.primitives = own.drawn;
   }
   return layers;
+}
+
+Subjects subjects_of(const SceneSource& source) {
+  const auto& layers = source.document.layers;
+  return std::any_of(layers.begin(), layers.end(), soup_of) ? Subjects::triangles
+                                                            : Subjects::splats;
 }
 
 std::optional<std::string> why_not(DebugView what, const SceneSource& source) {

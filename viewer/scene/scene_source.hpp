@@ -71,6 +71,12 @@ struct SceneSource {
 bool has_layers(const SceneSource& source, std::size_t file, std::optional<std::size_t> index = {});
 bool has_splats(const SceneSource& source);
 
+/// The document's, or else the first file's; display-referred.
+glm::vec3 background_of(const SceneSource& source);
+/// The view that R shows: the document's, or else first_view_of() the first file
+/// (camera/capture.hpp).
+std::optional<Camera> first_view_of(const SceneSource& source);
+
 /// all_notes() with the window's controls that change assumptions.
 std::vector<std::string> window_notes(const SceneInfo& info);
 /// The window_notes() of the files as a scene of several files has them: with names.
@@ -88,6 +94,8 @@ struct ProfiledSplats {
 std::vector<DocumentLayer> layers_for_rays(const SceneSource& source,
                                            std::map<LayerId, ProfiledSplats>& known);
 
+/// Whether the scene has triangles, for the words of debug views.
+Subjects subjects_of(const SceneSource& source);
 /// The reason why this debug view is not available, from the first layer that lacks it.
 std::optional<std::string> why_not(DebugView what, const SceneSource& source);
 /// The number of features that every layer has.

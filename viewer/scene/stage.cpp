@@ -81,7 +81,8 @@ std::string describe(const RefusedLayer& layer) {
 }
 
 Renderer prepare_renderer(const SceneSource& source, const StageRequest& request) {
-  const RenderOptions options = render_options(request.choice, *source.scene);
+  RenderOptions options = render_options(request.choice, *source.scene);
+  options.background = glm::vec4(background_of(source), 1.0f);
   const std::vector<PlacedLayer> layers = placed_layers(source.document.layers);
   const DeviceLimits limits = device_limits(request.context.capabilities());
   if (request.choice.pipeline == PipelineKind::tureen) {
@@ -124,7 +125,7 @@ std::unique_ptr<Stage> prepare_stage(const SceneSource& source, const StageReque
 
 std::unique_ptr<Stage> prepare_debug_stage(const SceneSource& source, const StageRequest& request) {
   const double begin = steady_seconds();
-  const RenderOptions options{.background = glm::vec4(source.scene->info.background, 1.0f)};
+  const RenderOptions options{.background = glm::vec4(background_of(source), 1.0f)};
   const DeviceLimits limits = device_limits(request.context.capabilities());
   const std::vector<PlacedLayer> layers = placed_layers(source.document.layers);
   Renderer renderer(request.context, prepare_debug_views(layers, limits, options), options);

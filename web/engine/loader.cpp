@@ -32,12 +32,13 @@ std::optional<std::string> why_not_all(DebugView what, const Scene& scene) {
 }
 
 Json debug_views_of(const Scene& scene) {
+  const Subjects subjects = triangle_count(scene) == 0 ? Subjects::splats : Subjects::triangles;
   Json list = Json::array();
   for (const DebugViewName& name : debug_view_names()) {
     const auto reason = why_not_all(name.what, scene);
     list.push_back(object({{"name", name.name},
                            {"title", name.title},
-                           {"meaning", name.meaning},
+                           {"meaning", meaning_of(name, subjects)},
                            {"missing", reason ? Json(*reason) : Json()}}));
   }
   return list;
