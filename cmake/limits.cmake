@@ -39,7 +39,7 @@ set(limits
   "code runtime 8450: plan, passes, debug views"
   "code trainer 13410: four methods, CPU and CUDA"
   "code jobs 8050: work that the programs share, the whole of a training run with its forecast, and cameras for photographs; what measures and reports grows no further"
-  "code viewer 8190: the window, its gizmo (450), background, forecast and clicks by name"
+  "code viewer 8200: the window, its gizmo (450), background, forecast, cameras and clicks by name"
   "code web 9400: the page"
   "code cli 7190: the command line computes nothing"
   "code examples 1450: one scene and its dataset"

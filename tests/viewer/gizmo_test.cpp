@@ -109,7 +109,9 @@ TEST(Gizmo, TurnsAndScalesAboutTheMiddle) {
       const auto change = change_of({gizmo, handle, from, place},
                                     *gizmo.project(on_ring(angle_of_press + angle)), Snapping::off);
       ASSERT_TRUE(change);
-      const glm::dmat4 expected = about(glm::rotate(glm::dmat4(1.0), angle, axis)) * place;
+      // The axes of a mirrored layer are left-handed: from u to v is the other way about the axis.
+      const double sign = glm::determinant(gizmo.axes) < 0 ? -1 : 1;
+      const glm::dmat4 expected = about(glm::rotate(glm::dmat4(1.0), sign * angle, axis)) * place;
       EXPECT_LT(difference(change->world_from_layer, expected), is_round ? 1e-8 : 1e-4);
     }
     const std::vector<GizmoHandle> circle = gizmo.handles(GizmoTool::scale);

@@ -28,12 +28,15 @@ TEST_F(WindowPanel, FitsASmallScreen) {
   for (const char* control : {"Steps", "layer: soup", "gizmo: Move", "gizmo: Off", "Rotation",
                               "Scale", "Set on the ground", "Center", "Reset"})
     person.click(control).press(Key::escape);
+  // The second click closes a list.
   person.point({200, 600}).look("scene").click("tab: Drawing");
-  for (const char* control : {"View", "Background", "Resolution", "theme: Light", "theme: Dark"})
+  for (const char* control :
+       {"View", "View", "Background", "Resolution", "Resolution", "theme: Light", "theme: Dark"})
     person.click(control).press(Key::escape);
   person.point({200, 600}).look("drawing").click("tab: Camera");
-  for (const char* control : {"mode: Orbit", "Corner", "Frame all", "First view",
-                              "Keep as first view", "Up", "Angle", "section: Camera path"})
+  for (const char* control :
+       {"mode: Orbit", "Corner", "Frame all", "First view", "Keep as first view", "Up", "Up",
+        "section: Camera path", "section: Camera path"})
     person.click(control).press(Key::escape);
   const ChildResult result = replay(person.point({200, 600}).look("camera"));
   EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -118,8 +121,11 @@ TEST_F(WindowPanel, KeepsAFirstViewAndTheBackgroundInTheFile) {
 
 TEST_F(WindowPanel, FliesAlongTheRecordedCameras) {
   Person person({1000, 700});
-  person.wait().click("tab: Camera").click("section: View").click("section: Camera path");
-  person.click_at_once("Fly along the cameras").hold(Key::super, 0.3).press(Key::space);
+  person.wait().click("tab: Camera").click("section: View").click("section: Image");
+  person.click("section: Camera path")
+      .click_at_once("Fly along the cameras")
+      .hold(Key::super, 0.3)
+      .press(Key::space);
   person.wait().click("Save");
   const ChildResult result = replay(person);
   EXPECT_EQ(result.exit_code, 0) << result.err;

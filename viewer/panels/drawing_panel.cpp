@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "runtime/plan/plan_description.hpp"
+#include "viewer/gui/item_places.hpp"
 #include "viewer/panels.hpp"
 #include "viewer/panels/widgets.hpp"
 
@@ -112,6 +113,21 @@ bool specialisations(DrawingChoice& choice, const RenderPlan& plan) {
   return changed;
 }
 
+/// The plan in sentences, and its specialisations. Returns whether the choice changed.
+bool plan_rows(DrawingChoice& choice, const RenderPlan& plan) {
+  const bool open = ImGui::TreeNode("Plan and specialisations");
+  note_item("Plan and specialisations");
+  if (!open) return false;
+  bool changed = false;
+  if (choice.pipeline == PipelineKind::tureen) {
+    changed |= check("Specialise for the scene", &choice.plan.specialise);
+    if (choice.plan.specialise) changed |= specialisations(choice, plan);
+  }
+  for (const std::string& each : describe(plan)) sentence(each);
+  ImGui::TreePop();
+  return changed;
+}
+
 }  // namespace
 
 void drawing_panel(State& state) {
@@ -129,20 +145,11 @@ void drawing_panel(State& state) {
     changed = true;
   }
   tip("Soups by a reimplementation of the published DiffSoup viewer, splats as plain quads");
-  if (stage.debug_views) {
+  if (stage.debug_views)  // the plan is not that of the choice
     aside("Debug views are drawn without these choices.");
-  } else if (!baseline) {
-    changed |= check("Specialise for the scene", &choice.plan.specialise);
-    if (choice.plan.specialise) {
-      ImGui::Indent();
-      changed |= specialisations(choice, stage.renderer.plan());
-      ImGui::Unindent();
-    }
-  }
+  else
+    changed |= plan_rows(choice, stage.renderer.plan());
   if (changed) state.ask(ChooseDrawing{choice});
-  if (stage.debug_views) return;  // the plan is not that of the choice
-  heading("Drawing plan and specialisations");
-  for (const std::string& each : describe(stage.renderer.plan())) sentence(each);
 }
 
 }  // namespace tureen::viewer

@@ -85,8 +85,13 @@ void drawing_tab(State& state, const FrameClock& clock) {
 
 void camera_tab(State& state) {
   section("View", true, [&] { view_panel(state); });
-  section("Photographs", true, [&] { comparison_panel(state); });
+  if (state.photographs) {
+    ImGui::PushID("dataset");  // it opens, whether the section below was open or not
+    section("Photographs", true, [&] { comparison_panel(state); });
+    ImGui::PopID();
+  }
   section("Image", true, [&] { image_panel(state); });
+  if (!state.photographs) section("Photographs", false, [&] { comparison_panel(state); });
   section("Camera path", false, [&] { path_panel(state); });
 }
 

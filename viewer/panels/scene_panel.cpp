@@ -61,7 +61,7 @@ void box_facts(const Document& document) {
   fact("Extent", fmt::format("{:.4g} \u00d7 {:.4g} \u00d7 {:.4g}", extent.x, extent.y, extent.z));
   tip("Of the box around all layers along x, y and z, in world units. Splats far from all others "
       "do not count");
-  fact("Box", fmt::format("{} to {}", list(box.low), list(box.high)));
+  fact("Box", fmt::format("{}\nto {}", list(box.low), list(box.high)));
   tip("Its lowest and its highest corner: x, y, z");
 }
 
@@ -112,9 +112,15 @@ void history_buttons(State& state) {
   steps_menu(state);
 }
 
-}  // namespace
+/// Closed at first: a message has shown them when the scene was opened.
+void notes_rows(const SceneInfo& info) {
+  const std::vector<std::string> notes = window_notes(info);
+  if (notes.empty() || !ImGui::TreeNode("notes", "Notes (%zu)", notes.size())) return;
+  for (const std::string& note : notes) aside(note);
+  ImGui::TreePop();
+}
 
-void scene_panel(State& state) {
+void fact_rows(const State& state) {
   const SceneSource& source = state.source;
   const Document& document = source.document;
   const SceneInfo& info = source.scene->info;
@@ -131,10 +137,17 @@ void scene_panel(State& state) {
   fact("GPU memory", megabytes(state.stage->renderer.device_bytes()));
   tip(fmt::format("read in {:.2f} s, prepared in {:.2f} s", source.read_seconds,
                   state.stage->prepare_seconds));
-  if (const auto notes = window_notes(info); !notes.empty()) {
-    heading("Notes");
-    for (const std::string& note : notes) aside(note);
-  }
+}
+
+}  // namespace
+
+void scene_panel(State& state) {
+  // Many short rows: closer than those of fields.
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing,
+                      ImVec2(ImGui::GetStyle().ItemSpacing.x, 0.2f * ImGui::GetFontSize()));
+  fact_rows(state);
+  ImGui::PopStyleVar();
+  notes_rows(state.source.scene->info);
   if (button("Open")) state.show_files = true;
   tip("O: replaces the scene; scenes that are dropped on the window become layers");
   ImGui::SameLine();

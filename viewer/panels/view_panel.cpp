@@ -54,11 +54,10 @@ void recorded_slider(State& state) {
   if (cameras.empty()) return;
   int index = std::min(state.recorded, int(cameras.size()) - 1);
   // The slider needs a printf format, but names come from files, so "%" is escaped.
-  std::string name = index < 0 ? "none" : fmt::format("{}: ", index);
+  std::string name = index < 0 ? "recorded cameras: none" : fmt::format("{}: ", index);
   if (index >= 0)
     for (const char letter : cameras[std::size_t(index)]->name)
       name += letter == '%' ? std::string("%%") : std::string(1, letter);
-  heading("Recorded cameras");
   const float side = ImGui::GetFrameHeight();
   if (button("<", side)) run_shortcut(Key::left_bracket, With::nothing, state);
   tip("[: previous camera");
