@@ -224,21 +224,25 @@ TEST_F(Window, ReportsWhyAPageWasNotWritten) {
   EXPECT_FALSE(fs::exists(folder_ / "pictures" / "soup-1.html"));
 }
 
-TEST_F(ThoroughWindow, SavesNoPageOfChangedLayers) {
+TEST_F(ThoroughWindow, SavesAPageOfChangedLayers) {
   write_square(folder_ / "floor.off", "255 0 0");
   std::ofstream(folder_ / "template.html")
       << R"(<script type="application/octet-stream;base64" id="scene" data-name=""></script>)";
   const Template other(folder_ / "template.html");
+  std::string pages[2];
   for (const bool changes : {false, true}) {
     Person person({720, 640});
     person.wait();
     if (changes) person.click("visible: floor");
-    save_page(person).look("panel");
-    const ChildResult result = replay(person, {"soup.glb", "floor.off"});
+    const ChildResult result = replay(save_page(person), {"soup.glb", "floor.off"});
     EXPECT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_EQ(fs::exists(folder_ / "pictures" / "soup-1.html"), !changes);
+    std::ifstream file(folder_ / "pictures" / "soup-1.html");
+    pages[changes] = {std::istreambuf_iterator<char>(file), {}};
     fs::remove(folder_ / "pictures" / "soup-1.html");
   }
+  EXPECT_GT(pages[0].size(), fs::file_size(folder_ / "soup.glb"));
+  EXPECT_GT(pages[1].size(), fs::file_size(folder_ / "soup.glb"));
+  EXPECT_NE(pages[0], pages[1]);
 }
 
 TEST_F(Window, PlaysACameraPath) {
@@ -721,7 +725,7 @@ TEST_F(Window, FollowsATraining) {
   write_run(folder_);
   const trainer::RunControl run(folder_ / "run.control");
   fs::copy(folder_ / "soup.glb", folder_ / "next.glb");
-  Person person({720, 640});
+  Person person({720, 720});
   person.wait().press(Key::digit_7).wait().look("running");
   // The next snapshot keeps the view, without a note.
   person.replace("soup.glb", "next.glb").hold(Key::super, 4).look("again");
@@ -735,11 +739,11 @@ TEST_F(Window, FollowsATraining) {
   EXPECT_EQ(trainer::read_command(folder_ / "run.control"), trainer::RunCommand::pause);
 
   // The same button continues the run; the other one asks before it stops it.
-  Person stopping({720, 640});
+  Person stopping({720, 720});
   stopping.wait().click("Continue").click("Stop and keep").look("asked");
   EXPECT_EQ(replay(stopping, arguments).exit_code, 0);
   EXPECT_EQ(trainer::read_command(folder_ / "run.control"), trainer::RunCommand::run);
-  Person stopped({720, 640});
+  Person stopped({720, 720});
   stopped.wait().click("Stop and keep").click("Stop now");
   EXPECT_EQ(replay(stopped, arguments).exit_code, 0);
   EXPECT_EQ(trainer::read_command(folder_ / "run.control"), trainer::RunCommand::finish);
@@ -777,7 +781,7 @@ TEST_F(ThoroughWindow, FollowsATrainingWhoseSplatsBecomeASoup) {
 }
 
 TEST_F(ThoroughWindow, FollowsATrainingWithoutALogOrARun) {
-  const Person person = Person({720, 640}).wait().click("Pause").look("training");
+  const Person person = Person({720, 720}).wait().click("Pause").look("training");
   const std::vector<std::string> arguments{"soup.glb", "--training", "run.jsonl"};
   EXPECT_EQ(replay(person, arguments).exit_code, 0);
   const Image8 none = image("training");

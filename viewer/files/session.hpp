@@ -22,8 +22,9 @@
 // "at" is in seconds since the start of the session and never decreases. "await" stops the clock
 // until nothing is being loaded and nothing moves. "picture" saves the window as a PNG in the
 // folder for images (`--images`). "click" clicks the control with this name, or drags it by a
-// distance; the program ends with an error if none is in sight. "replace" copies the second file over the first, as a running
-// trainer does. Other relative paths start at the program's working folder.
+// distance; the program ends with an error if none is in sight. "replace" copies the second file
+// over the first, as a running trainer does. Other relative paths start at the program's working
+// folder.
 #pragma once
 
 #include <filesystem>

@@ -25,18 +25,17 @@ Places& shown() {
 }  // namespace
 
 void note_item(const std::string& name) {
-  if (!ImGui::IsItemVisible()) return;
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   // Not in the middle: wide rows may have other controls there.
   const float right = std::min(0.5f * (high.x - low.x), ImGui::GetFontSize());
-  noted()[name] = {low.x + right, 0.5f * (low.y + high.y)};
+  const ImVec2 place{low.x + right, 0.5f * (low.y + high.y)};
+  if (ImGui::IsRectVisible(place, {place.x + 1, place.y + 1})) noted()[name] = {place.x, place.y};
 }
 
 void note_field(const std::string& name) {
-  const float em = ImGui::GetFontSize(), height = ImGui::GetFrameHeight();
-  if (!ImGui::IsRectVisible({em, height})) return;
   const ImVec2 low = ImGui::GetCursorScreenPos();
-  noted()[name] = {low.x + em, low.y + 0.5f * height};
+  const ImVec2 place{low.x + ImGui::GetFontSize(), low.y + 0.5f * ImGui::GetFrameHeight()};
+  if (ImGui::IsRectVisible(place, {place.x + 1, place.y + 1})) noted()[name] = {place.x, place.y};
 }
 
 void note_place(const std::string& name, const glm::dvec2& place) { noted()[name] = place; }

@@ -139,7 +139,7 @@ void path_panel(State& state) {
     play_row(animation);
     loop_row(animation);
     // Flights along cameras have many.
-    const float shown = std::min(float(animation.path.data().keyframes.size()), 8.0f);
+    const float shown = std::min(float(animation.path.data().keyframes.size()), 6.0f);
     ImGui::BeginChild("keyframes", {0, shown * ImGui::GetFrameHeightWithSpacing()});
     for (std::size_t i = 0; i < animation.path.data().keyframes.size(); ++i) keyframe_row(state, i);
     ImGui::EndChild();
