@@ -122,6 +122,7 @@ class Application {
   void carry_out(const WriteAnimation& request);
   void carry_out(const TellTraining& request);
   void carry_out(const CancelJob& request);
+  void carry_out(const FindCameras& request);
   void carry_out(const StartTraining& request);
   void carry_out(const StopTraining& request);
   void carry_out(const MeasureTraining& request);
@@ -188,6 +189,11 @@ class Application {
   void report_refused(const std::vector<RefusedLayer>& layers);
   /// Whether unsaved changes would be lost; then asks the user.
   bool asks_before(const Leave& leave);
+  /// Whether the path is photographs without cameras, or a video; then asks what to do with them.
+  bool asks_about_photographs(const std::filesystem::path& path);
+  /// Opens the dialog that trains a scene from the photographs, with what `tureen train PHOTOS`
+  /// does.
+  void offer_training();
   void ask_for_name(const std::optional<Leave>& then);
   std::filesystem::path own_file() const;
   void compare_when_needed();

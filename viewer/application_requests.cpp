@@ -46,7 +46,7 @@ void Application::carry_out() {
 }
 
 void Application::carry_out(const OpenPath& request) {
-  if (open_other(request.path, state_)) return;
+  if (open_other(request.path, state_) || asks_about_photographs(request.path)) return;
   if (request.discards || !asks_before({request.path})) load({Relation::other, {request.path}});
 }
 
@@ -56,7 +56,7 @@ void Application::carry_out(const AddPaths& request) {
   if (loading_) loading = *loading_;
   bool has_scenes = false;
   for (const fs::path& path : request.paths) {
-    if (open_other(path, state_)) continue;
+    if (open_other(path, state_) || asks_about_photographs(path)) continue;
     loading.paths.push_back(path);
     has_scenes = true;
   }
@@ -73,9 +73,9 @@ void Application::carry_out(const ReloadScene&) {
 
 void Application::carry_out(const OpenPhotographs& request) {
   const fs::path& path = request.path;
-  const auto work = [this, path](const Worker::Progress& progress) {
+  const auto work = [this, path, trains = request.trains](const Worker::Progress& progress) {
     auto dataset = std::make_shared<Dataset>(read_dataset(path, {.progress = progress}));
-    return Worker::Completion([this, path, dataset] {
+    return Worker::Completion([this, path, dataset, trains] {
       state_.messages.dismiss_opening();
       FullPhotographs full;
       if (!dataset->train.empty()) full = full_photographs(dataset->train);
@@ -92,6 +92,7 @@ void Application::carry_out(const OpenPhotographs& request) {
       state_.comparison = {};
       state_.note(std::to_string(state_.photographs->list.size()) +
                   " photographs: [ and ] select their cameras, C compares.");
+      if (trains) offer_training();
     });
   };
   const auto failed = [this, path](const std::string& reason) {

@@ -1,8 +1,14 @@
-// Starts the training of a scene from the photographs, ends it, and reports its end.
+// Finds the cameras of photographs without; starts the training of a scene from photographs, ends
+// it, and reports its end.
 #include <algorithm>
+#include <memory>
 #include <string>
+#include <string_view>
 #include <system_error>
+#include <vector>
 
+#include "formats/scene_file.hpp"
+#include "jobs/cameras/camera_run.hpp"
 #include "viewer/application.hpp"
 #include "viewer/names.hpp"
 #include "viewer/render_command.hpp"
@@ -11,6 +17,75 @@
 namespace tureen::viewer {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+std::string joined(const std::vector<std::string>& sentences) {
+  std::string text;
+  for (const std::string& each : sentences) text += (text.empty() ? "" : " ") + each;
+  return text;
+}
+
+/// Why the cameras cannot be trusted, and the command that uses them all the same.
+std::string refusal(const CameraOptions& job, const CameraQuality& quality) {
+  const std::string reasons = joined(described(quality.refusals));
+  if (quality.registered == 0) return reasons.empty() ? "COLMAP placed no camera." : reasons;
+  return reasons + " This command writes the dataset all the same: " +
+         quoted_command(
+             {"cameras", job.photographs.string(), "-o", job.dataset.string(), "--accept"});
+}
+
+}  // namespace
+
+bool Application::asks_about_photographs(const fs::path& path) {
+  if (!is_photographs(path) || is_scene(path)) return false;
+  std::error_code ignored;
+  fs::path dataset = (fs::absolute(path, ignored).lexically_normal() / "").parent_path();
+  if (!fs::is_directory(path, ignored)) dataset.replace_extension();
+  dataset += ".dataset";
+  if (has_cameras({.photographs = path, .dataset = dataset}))
+    state_.ask(OpenPhotographs{.path = dataset, .trains = true});
+  else
+    state_.camera_search = {path, dataset.string()};
+  return true;
+}
+
+void Application::offer_training() {
+  TrainingChoice& choice = state_.training_choice;
+  for (const TrainingMethodInfo* method : training_methods())
+    if (method->name == std::string_view("gaussians")) choice.method = method;
+  choice.values["minutes"] = "15";
+  state_.scene_to_train = new_trained_scene(state_.photographs->path).string();
+}
+
+void Application::carry_out(const FindCameras& request) {
+  const CameraOptions job{.photographs = request.photographs, .dataset = request.dataset};
+  const auto work = [this, job](const Worker::Progress& progress) {
+    const CameraEvents events{
+        .progress = [&](const char*, double fraction, double) { progress(fraction); },
+        .note = [](const std::string&) {}};  // the outcome has all remarks
+    const auto outcome = std::make_shared<const CameraOutcome>(find_cameras(job, events));
+    return Worker::Completion([this, job, outcome] {
+      const CameraQuality& quality = outcome->quality;
+      if (!outcome->is_written) {
+        state_.error("The photographs of " + short_name(job.photographs) + " have no cameras",
+                     refusal(job, quality));
+        return;
+      }
+      for (const std::string& each : described(outcome->remarks)) state_.note(each);
+      state_.note(joined(describe(quality)));
+      state_.ask(OpenPhotographs{.path = job.dataset, .trains = true});
+    });
+  };
+  const auto failed = [this, name = short_name(request.photographs)](const std::string& reason) {
+    state_.error("The cameras of " + name + " were not found", reason);
+  };
+  // What is saved meanwhile waits: it is another job of this thread.
+  writer_.start({.kind = JobKind::writing,
+                 .what = "finding the cameras of " + short_name(request.photographs),
+                 .work = work,
+                 .failed = failed});
+}
 
 void Application::carry_out(const StartTraining& request) {
   if (!state_.photographs || training_program_) return;

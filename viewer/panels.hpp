@@ -48,6 +48,7 @@ void files_overlay(State& state);
 void welcome_overlay(State& state);
 /// The dialogs before a training starts, and before the window is closed during it.
 void training_dialogs(State& state);
+void cameras_dialog(State& state);
 /// The dialogs about saving, and before unsaved changes are lost.
 void saving_dialogs(State& state);
 

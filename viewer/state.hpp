@@ -21,8 +21,8 @@
 #include "viewer/files/followed_training.hpp"
 #include "viewer/files/settings.hpp"
 #include "viewer/frame_clock.hpp"
-#include "viewer/gizmo.hpp"
 #include "viewer/messages.hpp"
+#include "viewer/scene/gizmo.hpp"
 #include "viewer/scene/stage.hpp"
 #include "viewer/training_command.hpp"
 #include "viewer/worker.hpp"
@@ -64,6 +64,11 @@ struct SaveScene {
 struct SaveSceneAs {};
 struct OpenPhotographs {
   std::filesystem::path path;
+  bool trains = false;  // then opens the dialog that starts a training
+};
+/// Writes a dataset with the cameras of photographs, or of a video, and opens it.
+struct FindCameras {
+  std::filesystem::path photographs, dataset;
 };
 struct CloseDataset {};
 struct ReloadScene {};
@@ -135,11 +140,11 @@ struct Quit {
 
 using Request =
     std::variant<OpenPath, AddPaths, Perform, Undo, Redo, GoToStep, SaveScene, SaveSceneAs,
-                 OpenPhotographs, CloseDataset, ReloadScene, ChooseDrawing, ShowRecorded, FocusAt,
-                 TakeImage, SavePage, CopyCommand, ToggleFullscreen, AddKeyframe, ShowKeyframe,
-                 MakeTurntable, FlyAlongCameras, SavePath, LoadPath, WriteAnimation, TellTraining,
-                 CancelJob, StartTraining, StopTraining, MeasureTraining, CopyTrainingCommand,
-                 StopWriting, Quit>;
+                 OpenPhotographs, FindCameras, CloseDataset, ReloadScene, ChooseDrawing,
+                 ShowRecorded, FocusAt, TakeImage, SavePage, CopyCommand, ToggleFullscreen,
+                 AddKeyframe, ShowKeyframe, MakeTurntable, FlyAlongCameras, SavePath, LoadPath,
+                 WriteAnimation, TellTraining, CancelJob, StartTraining, StopTraining,
+                 MeasureTraining, CopyTrainingCommand, StopWriting, Quit>;
 
 /// The photographs of the dataset, training ones first.
 struct Photographs {
@@ -176,6 +181,12 @@ struct GizmoState {
   GizmoAxes axes = GizmoAxes::world;
   std::optional<GizmoDrag> drag = {};
   bool is_hovered = false;  // in the last frame
+};
+
+/// The dialog about photographs without cameras.
+struct CameraSearch {
+  std::filesystem::path photographs;
+  std::string dataset;  // to write, as typed
 };
 
 /// The dialogs about saving; each is open if it has a value.
@@ -250,8 +261,9 @@ struct State {
   bool shows_checks = false;  // instead of the background
   bool show_keys = false;
   FileList files;
-  bool adds_files = false;                    // they become layers of the scene
-  bool show_files = false;                    // the window that opens files
+  bool adds_files = false;  // they become layers of the scene
+  bool show_files = false;  // the window that opens files
+  std::optional<CameraSearch> camera_search;
   std::optional<std::string> scene_to_train;  // text of the dialog that starts a training
   TrainingChoice training_choice;             // of that dialog
   std::optional<double> training_seconds;     // measured_seconds_per_pixel()
@@ -267,7 +279,8 @@ struct State {
   std::filesystem::path folder_of_images() const;
   /// Whether a dialog is open, which takes the keys.
   bool has_dialog() const {
-    return scene_to_train || asks_before_quitting || saving.name || saving.losses || saving.leaving;
+    return camera_search || scene_to_train || asks_before_quitting || saving.name ||
+           saving.losses || saving.leaving;
   }
   /// The layer that the panel *Layers* has selected, or the first.
   const DocumentLayer& selected_layer() const;

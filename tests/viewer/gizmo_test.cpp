@@ -1,5 +1,5 @@
 // The gizmo's mathematics: a pointer that follows a point of a handle moves the layer with it.
-#include "viewer/gizmo.hpp"
+#include "viewer/scene/gizmo.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -39,7 +39,7 @@ fs::path folder_buttons(State& state) {
   if (button("Up")) next = state.files.folder.parent_path();
   ImGui::SameLine();
   if (button("Choose this folder")) open(state, state.files.folder);
-  tip("A dataset, a DiffSoup export, a MobileNeRF model");
+  tip("A dataset, photographs, a DiffSoup export, a MobileNeRF model");
   if (state.stage) {
     ImGui::SameLine();
     check("Add to the scene", &state.adds_files);

@@ -4,10 +4,10 @@
 #include <utility>
 #include <vector>
 
-#include "viewer/gizmo.hpp"
 #include "viewer/gui/item_places.hpp"
 #include "viewer/panels.hpp"
 #include "viewer/panels/widgets.hpp"
+#include "viewer/scene/gizmo.hpp"
 
 namespace tureen::viewer {
 

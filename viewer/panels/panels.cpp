@@ -155,6 +155,7 @@ void draw_overlays(State& state) {
   message_overlay(state);
   if (state.show_files) files_overlay(state);
   if (state.show_keys) keys_overlay(state);
+  cameras_dialog(state);
   training_dialogs(state);
   saving_dialogs(state);
 }

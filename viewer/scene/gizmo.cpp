@@ -1,4 +1,4 @@
-#include "viewer/gizmo.hpp"
+#include "viewer/scene/gizmo.hpp"
 
 #include <fmt/format.h>
 
