@@ -55,7 +55,7 @@ TEST_F(WindowCameras, ThatAreNotTrustedWriteNoDataset) {
   take(4);  // too few
   Person person({1000, 700});
   const ChildResult result =
-      replay(person.wait().drop("photos").click("Find the cameras").look("refused"));
+      replay(person.wait().drop("photos").wait().click("Find the cameras").look("refused"));
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_FALSE(fs::exists(folder_ / "photos.dataset"));
 }
