@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "base/platform/scratch_file.hpp"
 #include "formats/dataset/alpha.hpp"
 #include "formats/dataset/bundler.hpp"
 #include "formats/dataset/colmap.hpp"
@@ -34,20 +35,52 @@ void require_photographs(const DatasetOutline& outline, const DatasetOptions& op
   refuse(outline.test, options.part == DatasetPart::test, "test");
 }
 
-/// Rejects photographs that exceed the budget before they are decoded, which may take a minute.
-/// Possible only if the dataset stores their sizes.
-void require_budget(const std::string& file, const std::vector<const DatasetFrame*>& frames,
-                    const DatasetOptions& options, const MemoryBudget& budget) {
-  double pixels = 0;
-  for (const DatasetFrame* frame : frames)
-    if (frame->size)
-      pixels += double(scaled_side(frame->size->x, options.scale / options.images_folder)) *
-                scaled_side(frame->size->y, options.scale / options.images_folder);
-  // Cropping removes less than half of the pixels, so the limit is twice the budget.
-  if (pixels * sizeof(glm::u8vec4) > 2.0 * double(budget.left()))
-    throw InputError({file}, budget.refusal("the photographs"),
-                     std::string(max_memory_hint) + ", --scale makes them smaller");
-}
+/// Holds the pixels of photographs in memory up to half of the budget, because their decoders need
+/// memory, too, and those of further ones in a file.
+class PixelStore {
+ public:
+  explicit PixelStore(const MemoryBudget& budget) : budget_(budget), left_(budget.left() / 2) {}
+
+  /// Rejects photographs that exceed the disk before they are decoded, which may take minutes.
+  /// Possible only if the dataset stores their sizes.
+  void require_space(const std::vector<const DatasetFrame*>& frames,
+                     const DatasetOptions& options) {
+    double pixels = 0;
+    for (const DatasetFrame* frame : frames)
+      if (frame->size)
+        pixels += double(scaled_side(frame->size->x, options.scale / options.images_folder)) *
+                  scaled_side(frame->size->y, options.scale / options.images_folder);
+    // Cropping removes less than half of the pixels, which then are opaque, with three bytes.
+    const double bytes = 0.5 * 3 * pixels - double(left_);
+    if (bytes <= 0) return;
+    file_ = std::make_shared<ScratchFile>();
+    std::error_code unknown;
+    const fs::space_info space = fs::space(scratch_folder(), unknown);
+    if (!unknown && bytes > double(space.available))
+      throw OutputError({scratch_folder().string()},
+                        "the photographs need at least " + memory_size_text(std::uint64_t(bytes)) +
+                            " in a temporary file, but the disk has " +
+                            memory_size_text(space.available),
+                        scratch_hint);
+  }
+
+  /// `photograph`: its memory is charged to the budget.
+  void keep(Photograph& photograph) {
+    const std::uint64_t bytes = photograph.bytes();
+    if (bytes <= left_) {
+      left_ -= bytes;
+      return;
+    }
+    if (!file_) file_ = std::make_shared<ScratchFile>();
+    photograph.move_to(file_);
+    budget_.give_back(bytes);
+  }
+
+ private:
+  MemoryBudget budget_;
+  std::uint64_t left_;
+  std::shared_ptr<ScratchFile> file_;
+};
 
 /// Between the left and the right edge, in degrees.
 double angle_of_view(const Camera& camera) {
@@ -229,10 +262,8 @@ void require_size_of_first(const ReadPhotograph& read, const fs::path& image, do
 }
 
 /// Decides what alpha is, and applies it to all photographs.
-void settle_alpha(Dataset& dataset, const std::optional<AlphaMeaning>& wanted) {
-  std::vector<const Photograph*> all;
-  for (const auto* part : {&dataset.train, &dataset.test})
-    for (const Photograph& photograph : *part) all.push_back(&photograph);
+void settle_alpha(Dataset& dataset, const std::vector<AlphaCounts>& all,
+                  const std::optional<AlphaMeaning>& wanted) {
   const AlphaUse use = alpha_of(all);
   const AlphaMeaning meaning = wanted.value_or(use.meaning);
   for (auto* part : {&dataset.train, &dataset.test})
@@ -286,11 +317,13 @@ Dataset read_dataset(const fs::path& path, const DatasetOptions& given) {
   FoundDataset found = find_dataset(path, given, budget);
   DatasetOptions options = given;
   options.images_folder = found.outline.images_folder;
-  require_budget(found.outline.file, found.frames, options, budget);
+  PixelStore store(budget);
+  store.require_space(found.frames, options);
 
   Dataset dataset = std::move(found.outline.dataset);
   const std::size_t trained = found.outline.train.size();
   Observed observed;
+  std::vector<AlphaCounts> alpha;
   std::uint64_t masked = 0;  // photographs with ignored pixels
   glm::ivec2 first_size(0);  // of images whose size the dataset does not give
   std::size_t read_count = 0;
@@ -313,6 +346,8 @@ Dataset read_dataset(const fs::path& path, const DatasetOptions& given) {
       require_size_of_first(read, found.files[i].image, options.scale, first_size);
     observed.add(frame, read);
     masked += !read.photograph.ignored.empty();
+    alpha.push_back(read.alpha);
+    store.keep(read.photograph);
     (i < trained ? dataset.train : dataset.test).push_back(std::move(read.photograph));
   }
   found.skipped.require_enough(found.outline.file, read_count, options.is_strict);
@@ -323,7 +358,7 @@ Dataset read_dataset(const fs::path& path, const DatasetOptions& given) {
   if (masked > 0)
     dataset.remarks.push_back(
         {&remarks::pixels_masked, {{"masked", masked}, {"all", std::uint64_t(read_count)}}});
-  settle_alpha(dataset, options.alpha);
+  settle_alpha(dataset, alpha, options.alpha);
   if (options.progress) options.progress(1.0);
   return dataset;
 }

@@ -220,10 +220,11 @@ ReadPhotograph read_photograph(const DatasetFrame& frame, const FoundPhotograph&
   result.lost_columns = size.x - photograph.camera.width;
   result.lost_rows = size.y - photograph.camera.height;
   const bool crop = result.lost_columns + result.lost_rows > 0;
-  photograph.image = crop ? cropped(image, known) : std::move(image);
+  if (crop) image = cropped(image, known);
+  result.alpha = alpha_counts(image);
+  photograph.image = std::move(image);
   if (found.mask) photograph.ignored = ignored_pixels(mask, size.x, known, found.mask->string());
-  passing.keep(photograph.image.pixels.size() * sizeof photograph.image.pixels[0] +
-               photograph.ignored.size());
+  passing.keep(photograph.bytes());
   return result;
 }
 

@@ -185,7 +185,7 @@ PointOutcome add_points(const PointOptions& options, const CameraEvents& events)
   make_folder(setup.images);
   work.run("images", "preparing photographs", 0.2 * double(count), [&](const auto& progress) {
     on_all_cores(count, progress, [&](std::size_t i, const auto&) {
-      write_file(setup.images / name_of(i), encode_png(opaque(photographs[i].image)));
+      write_file(setup.images / name_of(i), encode_png(opaque(photographs[i].image())));
     });
   });
 
