@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <map>
 #include <set>
@@ -15,6 +16,7 @@
 #include "formats/dataset/dataset_remarks.hpp"
 #include "formats/dataset/photograph.hpp"
 #include "formats/dataset/skipped.hpp"
+#include "image/codecs/exif.hpp"
 #include "image/png.hpp"
 
 namespace tureen {
@@ -219,6 +221,7 @@ struct Observed {
   int lost_columns = 0, lost_rows = 0;
   int shrunk = 1;
   std::uint64_t turned = 0, with_orientation = 0;
+  glm::dvec3 up{0};  // sum of the photographs' up axes, as viewers show them
 
   void add(const DatasetFrame& frame, const ReadPhotograph& read) {
     if (frame.lens.is_fisheye())
@@ -229,7 +232,10 @@ struct Observed {
     lost_rows = std::max(lost_rows, read.lost_rows);
     shrunk = std::max(shrunk, read.shrunk);
     turned += read.was_turned;
-    with_orientation += read.ignores_orientation;
+    with_orientation += read.ignored_orientation > 1;
+    const glm::dmat3 axes = read.photograph.camera.world_from_view_rotation();
+    const glm::ivec2 top = stored_top(read.ignored_orientation);
+    up += double(top.x) * axes[0] + double(top.y) * axes[1];
   }
 
   void add_remarks(std::vector<Remark>& list) const {
@@ -354,6 +360,14 @@ Dataset read_dataset(const fs::path& path, const DatasetOptions& given) {
   if (options.part != DatasetPart::test && dataset.train.empty())
     throw InputError({found.outline.file}, "no photograph is left to train on");
   found.skipped.add_remarks(dataset.remarks, read_count);
+  // The outline has the mean of the cameras' up axes, which lie on their side in such photographs.
+  const auto& list = dataset.remarks;
+  const bool is_mean = std::any_of(list.begin(), list.end(), [](const Remark& remark) {
+    return remark.kind == &remarks::up_of_cameras || remark.kind == &remarks::up_of_no_camera;
+  });
+  if (is_mean && observed.with_orientation > 0 &&
+      glm::length(observed.up) > least_mean_up * double(read_count))
+    dataset.up = glm::vec3(glm::normalize(observed.up));
   observed.add_remarks(dataset.remarks);
   if (masked > 0)
     dataset.remarks.push_back(

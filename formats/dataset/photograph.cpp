@@ -171,7 +171,7 @@ ReadPhotograph read_photograph(const DatasetFrame& frame, const FoundPhotograph&
     const glm::ivec2 stored(image.width, image.height);
     result.was_turned = frame.size && stored.x != stored.y && swaps_sides(orientation) &&
                         is_part(exchanged(stored), *frame.size, options.images_folder);
-    result.ignores_orientation = !result.was_turned;
+    if (!result.was_turned) result.ignored_orientation = orientation;
     if (result.was_turned) image = turned(image, orientation);
   }
   result.shrunk = factor_of(frame, image, options.images_folder, input.name());

@@ -38,8 +38,9 @@ struct ReadPhotograph {
   /// How many times smaller than the camera's the image is, beyond its folder; 1: as large.
   int shrunk = 1;
   AlphaCounts alpha = {};
-  bool was_turned = false;           // by its EXIF orientation
-  bool ignores_orientation = false;  // which the camera does not have
+  bool was_turned = false;  // by its EXIF orientation
+  /// That which the camera does not have; 1: none.
+  int ignored_orientation = 1;
 };
 
 /// Decodes the photograph and scales it by `options.scale`. A pixel is ignored if any pixel of the
