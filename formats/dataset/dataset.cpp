@@ -43,16 +43,23 @@ class PixelStore {
  public:
   explicit PixelStore(const MemoryBudget& budget) : budget_(budget), left_(budget.left() / 2) {}
 
-  /// Rejects photographs that exceed the disk before they are decoded, which may take minutes.
-  /// Possible only if the dataset stores their sizes.
+  /// Rejects a photograph that exceeds the budget, and photographs that exceed the disk, before
+  /// they are decoded, which may take minutes. Possible only if the dataset stores their sizes.
   void require_space(const std::vector<const DatasetFrame*>& frames,
                      const DatasetOptions& options) {
     double pixels = 0;
     for (const DatasetFrame* frame : frames)
-      if (frame->size)
-        pixels += double(scaled_side(frame->size->x, options.scale / options.images_folder)) *
-                  scaled_side(frame->size->y, options.scale / options.images_folder);
-    // Cropping removes less than half of the pixels, which then are opaque, with three bytes.
+      if (frame->size) {
+        const double size =
+            double(scaled_side(frame->size->x, options.scale / options.images_folder)) *
+            scaled_side(frame->size->y, options.scale / options.images_folder);
+        // Cropping removes less than half of the pixels.
+        if (0.5 * sizeof(glm::u8vec4) * size > double(budget_.left()))
+          throw InputError({frame->name}, budget_.refusal("the photograph"),
+                           std::string(max_memory_hint) + ", --scale makes it smaller");
+        pixels += size;
+      }
+    // In the file, opaque pixels have three bytes.
     const double bytes = 0.5 * 3 * pixels - double(left_);
     if (bytes <= 0) return;
     file_ = std::make_shared<ScratchFile>();

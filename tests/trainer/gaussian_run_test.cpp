@@ -333,7 +333,9 @@ TEST(GaussianTraining, IsTheSameFromPhotographsInAFile) {
       train_splats(dataset, std::move(asked));
     };
     // In the first steps, the images have half their sides.
-    if (kind == resumed) EXPECT_THROW(train(false, 25), Stop);
+    if (kind == resumed) {
+      EXPECT_THROW(train(false, 25), Stop);
+    }
     train(kind == resumed, -1);
     files.push_back(Input::open(run.folder / "disc.glb").read_rest());
   }
