@@ -11,6 +11,7 @@
 
 #include "base/decimal_text.hpp"
 #include "base/existing_path.hpp"
+#include "base/platform/process.hpp"
 #include "camera/navigation.hpp"
 #include "cli/commands.hpp"
 #include "cli/dataset_info.hpp"
@@ -21,6 +22,7 @@
 #include "formats/dataset/camera_file.hpp"
 #include "formats/dataset/dataset.hpp"
 #include "jobs/bench/plan_json.hpp"
+#include "jobs/cameras/camera_run.hpp"
 #include "runtime/device_forecast.hpp"
 #include "runtime/plan/plan_description.hpp"
 #include "scene/edit/baked_transform.hpp"
@@ -404,6 +406,10 @@ bool of_dataset(const InfoOptions& options) {
   const auto dataset = std::find_if(paths.begin(), paths.end(), [](const std::string& path) {
     return is_dataset(path) && !is_scene(path);
   });
+  for (const std::string& path : paths)
+    if (is_photographs(path) && !is_scene(path))
+      throw InputError({path}, "photographs or a video, without cameras",
+                       "tureen cameras " + shell_word(path) + " finds the cameras");
   if (dataset == paths.end()) {
     if (options.plot.empty()) return false;
     for (const std::string& path : paths) require_there(path);

@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "base/existing_path.hpp"
 #include "base/output.hpp"
+#include "base/platform/process.hpp"
 #include "base/suggestion.hpp"
 #include "cli/commands.hpp"
 #include "cli/files/photograph_cameras.hpp"
@@ -236,14 +237,6 @@ void set_presets(TrainOptions& options) {
   if (!fs::exists(files_of(job).checkpoint, ignored)) job.resume = false;
 }
 
-std::string shell_word(const std::string& word) {
-  if (!word.empty() && word.find_first_of(" \t\n'\"$&|;<>()*?[]#~`\\!") == std::string::npos)
-    return word;
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
-
 /// Finds the cameras, unless an earlier run has, and makes the dataset that of the run. Prints the
 /// commands for which this one stands.
 void use_photographs(TrainOptions& options) {
@@ -353,10 +346,9 @@ ExitCode train(TrainOptions options) {
   events.failed_aid = [](const std::string& sentence) { say(sentence); };
 
   say_list("Reading " + options.dataset.path + ":", notes_of(dataset.remarks));
-  // 67 photographs at a quarter of their size, Gaussians, equal steps.
   if (dataset.points.empty() && !start && !job.resume)
     say("tureen cameras " + shell_word(options.dataset.path) +
-        " adds points, by COLMAP, to begin from: 2.3 dB better on a measured set");
+        " adds points by COLMAP, from which training begins better");
   const TrainingOutcome result = run.train(dataset, start ? &*start : nullptr, events);
   progress.reset();
   evaluating.reset();

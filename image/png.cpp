@@ -11,9 +11,9 @@
 #include <utility>
 
 #include "base/stray_text.hpp"
+#include "image/codecs/jpeg_tables.hpp"
 #include "image/codecs/webp.hpp"
 #include "image/decoder_memory.hpp"
-#include "image/jpeg_tables.hpp"
 #include "image/png_chunks.hpp"
 
 #ifndef __EMSCRIPTEN__

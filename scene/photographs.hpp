@@ -5,7 +5,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "image/image.hpp"
+#include "image/stored_image.hpp"
 #include "scene/camera.hpp"
 #include "scene/remark.hpp"
 
@@ -19,10 +19,22 @@ namespace tureen {
 /// principal point is shifted accordingly. Alpha below 255 therefore always comes from the dataset.
 struct Photograph {
   Camera camera;
-  Image8 image;  // straight alpha; camera.width x camera.height
+  StoredImage image;  // straight alpha; camera.width x camera.height
   /// One per pixel, in the image's order, 1 for pixels that a mask of the dataset excludes from
   /// training and evaluation; empty if no pixel is excluded.
-  std::vector<std::uint8_t> ignored = {};
+  StoredBytes ignored = {};
+
+  /// Moves the pixels to the file, unless they are in one. Throws OutputError if the disk is full.
+  void move_to(const std::shared_ptr<ScratchFile>& file) {
+    image.move_to(file);
+    ignored.move_to(file);
+  }
+  /// The file that has the pixels; null if they are in memory.
+  const std::shared_ptr<ScratchFile>& file() const { return image.planes().file(); }
+  /// Of the pixels, in memory or in the file.
+  std::uint64_t bytes() const {
+    return ignored.size() + (file() ? image.planes().size() : sizeof(glm::u8vec4) * image.pixels());
+  }
 };
 
 struct DatasetPoint {

@@ -31,11 +31,14 @@ void Application::compare_when_needed() {
   Comparison& comparison = state_.comparison;
   const Photograph* photograph = state_.photograph();
   if (!photograph || comparison.show == Comparison::Show::off || !state_.stage) return;
-  if (comparison.photograph != state_.recorded) {
-    comparison.texture = ImageTexture(photograph->image);
-    comparison.photograph = state_.recorded;
-    comparison.forget();
-  }
+  if (comparison.photograph != state_.recorded) try {
+      comparison.texture = ImageTexture(photograph->image());
+      comparison.photograph = state_.recorded;
+      comparison.forget();
+    } catch (const InputError& error) {  // its temporary file
+      comparison.show = Comparison::Show::off;
+      return state_.error("The photograph cannot be shown", error.reason());
+    }
   if (comparison.result || comparison.asked) return;
   if (state_.stage->debug_views) return;  // its renderer is not that of the drawing choice
   comparison.asked = true;
@@ -51,11 +54,11 @@ void Application::compare_when_needed() {
   const int ticket = comparison.ticket;
   auto drawn = std::make_shared<Image8>(renderer.read_color());
   image_is_current_ = false;  // the renderer now has the photograph's view
-  auto held = std::make_shared<Image8>(photograph->image);
   const glm::vec3 background = background_of(state_.source);
-  const auto work = [this, drawn, held, background, ticket](const Worker::Progress&) {
+  const auto work = [this, drawn, held = photograph->image, background,
+                     ticket](const Worker::Progress&) {
     const ImageF ours = composited(to_float(*drawn), background);
-    const ImageF theirs = composited(to_float(*held), background);
+    const ImageF theirs = composited(to_float(held()), background);
     const Metrics metrics = compare(ours, theirs, {.with_flip = false});
     auto map = std::make_shared<Image8>(difference(ours, theirs));
     return Worker::Completion([this, metrics, map, ticket] {

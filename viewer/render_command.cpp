@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/platform/process.hpp"
 #include "scene/document/place_text.hpp"
 #include "viewer/axes.hpp"
 
@@ -97,23 +98,9 @@ std::string shown(const DebugViewChoice& debug_view) {
 
 }  // namespace
 
-std::string quoted(const std::string& text) {
-  constexpr std::string_view plain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./,:+=@%";
-  if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;
-  std::string result = "'";
-  for (const char letter : text) {
-    if (letter == '\'')
-      result += "'\\''";
-    else
-      result += letter;
-  }
-  return result + "'";
-}
-
 std::string quoted_command(const std::vector<std::string>& arguments) {
   std::string command = "tureen";
-  for (const std::string& argument : arguments) command += " " + quoted(argument);
+  for (const std::string& argument : arguments) command += " " + shell_word(argument);
   return command;
 }
 
@@ -173,11 +160,12 @@ std::string render_command(const SceneSource& scene, const DrawingChoice& choice
                            const std::filesystem::path& camera_file,
                            std::optional<std::uint64_t> max_splats, int rays) {
   std::string command = "tureen render";
-  for (const std::filesystem::path& path : scene.paths()) command += " " + quoted(path.string());
+  for (const std::filesystem::path& path : scene.paths())
+    command += " " + shell_word(path.string());
   if (max_splats) command += fmt::format(" --max-splats {}", *max_splats);
-  for (const std::string& argument : place_arguments(scene)) command += " " + quoted(argument);
+  for (const std::string& argument : place_arguments(scene)) command += " " + shell_word(argument);
   if (needs_camera_file(camera)) {
-    command += " --camera " + quoted(camera_file.string());
+    command += " --camera " + shell_word(camera_file.string());
   } else {
     const glm::dmat3 axes = camera.world_from_view_rotation();
     const glm::dvec3 eye = camera.eye();

@@ -37,10 +37,6 @@ std::vector<std::string> quality_arguments(const SceneSource& scene, const Drawi
 
 bool needs_camera_file(const Camera& camera);
 
-/// The text for a POSIX shell: unchanged if it has only plain characters, otherwise in single
-/// quotes.
-std::string quoted(const std::string& text);
-
 /// "tureen" and its arguments, for a POSIX shell.
 std::string quoted_command(const std::vector<std::string>& arguments);
 

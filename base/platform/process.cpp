@@ -133,7 +133,16 @@ Process::Process(const std::string& program, const std::vector<std::string>& arg
   spawn.write_to(options.errors, STDERR_FILENO);
   if (own_group_) spawn.make_group();
   pid_t process = -1;
-  const int reason = spawn.start(process, program, arguments);
+  int reason = 0;
+  // posix_spawn cannot ask for the signal; setpriv asks, and becomes the program.
+  if (options.ends_with_us && is_on_path("setpriv") &&
+      (program.find('/') != std::string::npos || is_on_path(program))) {
+    std::vector<std::string> words{"--pdeathsig", "KILL", program};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    reason = spawn.start(process, "setpriv", words);
+  } else {
+    reason = spawn.start(process, program, arguments);
+  }
   for (const int theirs : {ends[1], outputs[1]})
     if (theirs >= 0) close(theirs);
   input_ = ends[0];
@@ -253,6 +262,20 @@ bool is_on_path(const std::string& program) {
       return true;
   }
   return false;
+}
+
+std::string shell_word(const std::string& text) {
+  constexpr std::string_view plain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./,:+=@%";
+  if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;
+  std::string result = "'";
+  for (const char letter : text) {
+    if (letter == '\'')
+      result += "'\\''";
+    else
+      result += letter;
+  }
+  return result + "'";
 }
 
 }  // namespace tureen

@@ -27,6 +27,8 @@ class Process {
     /// In a group of its own, Ctrl-C in the terminal does not reach it, and the signals below also
     /// reach the programs that it has started.
     bool own_group = false;
+    /// Ends with the thread that starts it, also if that is killed; on Linux, by setpriv.
+    bool ends_with_us = false;
   };
 
   /// `program`: a path, or a name that is searched on PATH. Throws std::system_error with the
@@ -78,5 +80,9 @@ std::string output_of(const std::string& program, const std::vector<std::string>
 
 /// Whether a folder of PATH has a program with this name.
 bool is_on_path(const std::string& program);
+
+/// The text for a POSIX shell: unchanged if it has only plain characters, otherwise in single
+/// quotes.
+std::string shell_word(const std::string& text);
 
 }  // namespace tureen

@@ -50,7 +50,8 @@ void refuse(const CameraOptions& options, const CameraQuality& quality) {
   if (reasons.empty()) reasons = "COLMAP placed no camera.";
   reasons.pop_back();
   const bool is_untried = quality.models.empty() && quality.photographs < least_photographs;
-  const bool may_go_on = quality.registered > 0 || (is_untried && quality.photographs >= 3);
+  const bool may_go_on =
+      !options.accept && (quality.registered > 0 || (is_untried && quality.photographs >= 3));
   throw InputError({options.photographs.string()}, "no cameras that can be trusted: " + reasons,
                    may_go_on ? "the same command with --accept goes on all the same" : "");
 }

@@ -12,12 +12,9 @@ constexpr int opaque_from = 250;
 
 bool is_transparent(const glm::u8vec4& pixel) { return pixel.a < 128; }
 
-struct AlphaCounts {
-  double all = 0;     // fraction of the pixels that are transparent
-  double border = 0;  // of those in the first and last row and column
-};
+}  // namespace
 
-AlphaCounts counts_of(const Image8& image) {
+AlphaCounts alpha_counts(const Image8& image) {
   std::size_t all = 0, border = 0;
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
@@ -30,13 +27,10 @@ AlphaCounts counts_of(const Image8& image) {
   return {double(all) / double(image.pixels.size()), double(border) / double(sides)};
 }
 
-}  // namespace
-
-AlphaUse alpha_of(const std::vector<const Photograph*>& photographs) {
+AlphaUse alpha_of(const std::vector<AlphaCounts>& photographs) {
   AlphaUse use;
   std::size_t cut_out = 0;
-  for (const Photograph* photograph : photographs) {
-    const AlphaCounts counts = counts_of(photograph->image);
+  for (const AlphaCounts& counts : photographs) {
     use.photographs += counts.all > 0.001;
     cut_out += counts.all >= 0.25 && counts.border >= 0.5;
   }
@@ -46,16 +40,19 @@ AlphaUse alpha_of(const std::vector<const Photograph*>& photographs) {
 }
 
 void apply_alpha(AlphaMeaning meaning, Photograph& photograph) {
-  if (meaning == AlphaMeaning::background) return;
-  std::vector<glm::u8vec4>& pixels = photograph.image.pixels;
+  if (meaning == AlphaMeaning::background || photograph.image.is_opaque()) return;
+  const std::shared_ptr<ScratchFile> file = photograph.file();
+  Image8 image = photograph.image();
   if (meaning == AlphaMeaning::mask) {
-    std::vector<std::uint8_t> ignored = photograph.ignored;
-    ignored.resize(pixels.size());
-    for (std::size_t i = 0; i < pixels.size(); ++i) ignored[i] |= pixels[i].a < opaque_from;
+    std::vector<std::uint8_t> ignored = photograph.ignored();
+    ignored.resize(image.pixels.size());
+    for (std::size_t i = 0; i < ignored.size(); ++i) ignored[i] |= image.pixels[i].a < opaque_from;
     const auto count = std::size_t(std::ranges::count(ignored, 1));
     if (count > 0 && count < ignored.size()) photograph.ignored = std::move(ignored);
   }
-  for (glm::u8vec4& pixel : pixels) pixel.a = 255;
+  for (glm::u8vec4& pixel : image.pixels) pixel.a = 255;
+  photograph.image = std::move(image);
+  if (file) photograph.move_to(file);
 }
 
 }  // namespace tureen

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <map>
 #include <set>
 
+#include "base/platform/scratch_file.hpp"
 #include "formats/dataset/alpha.hpp"
 #include "formats/dataset/bundler.hpp"
 #include "formats/dataset/colmap.hpp"
@@ -14,6 +16,7 @@
 #include "formats/dataset/dataset_remarks.hpp"
 #include "formats/dataset/photograph.hpp"
 #include "formats/dataset/skipped.hpp"
+#include "image/codecs/exif.hpp"
 #include "image/png.hpp"
 
 namespace tureen {
@@ -34,20 +37,59 @@ void require_photographs(const DatasetOutline& outline, const DatasetOptions& op
   refuse(outline.test, options.part == DatasetPart::test, "test");
 }
 
-/// Rejects photographs that exceed the budget before they are decoded, which may take a minute.
-/// Possible only if the dataset stores their sizes.
-void require_budget(const std::string& file, const std::vector<const DatasetFrame*>& frames,
-                    const DatasetOptions& options, const MemoryBudget& budget) {
-  double pixels = 0;
-  for (const DatasetFrame* frame : frames)
-    if (frame->size)
-      pixels += double(scaled_side(frame->size->x, options.scale / options.images_folder)) *
-                scaled_side(frame->size->y, options.scale / options.images_folder);
-  // Cropping removes less than half of the pixels, so the limit is twice the budget.
-  if (pixels * sizeof(glm::u8vec4) > 2.0 * double(budget.left()))
-    throw InputError({file}, budget.refusal("the photographs"),
-                     std::string(max_memory_hint) + ", --scale makes them smaller");
-}
+/// Holds the pixels of photographs in memory up to half of the budget, because their decoders need
+/// memory, too, and those of further ones in a file.
+class PixelStore {
+ public:
+  explicit PixelStore(const MemoryBudget& budget) : budget_(budget), left_(budget.left() / 2) {}
+
+  /// Rejects a photograph that exceeds the budget, and photographs that exceed the disk, before
+  /// they are decoded, which may take minutes. Possible only if the dataset stores their sizes.
+  void require_space(const std::vector<const DatasetFrame*>& frames,
+                     const DatasetOptions& options) {
+    double pixels = 0;
+    for (const DatasetFrame* frame : frames)
+      if (frame->size) {
+        const double size =
+            double(scaled_side(frame->size->x, options.scale / options.images_folder)) *
+            scaled_side(frame->size->y, options.scale / options.images_folder);
+        // Cropping removes less than half of the pixels.
+        if (0.5 * sizeof(glm::u8vec4) * size > double(budget_.left()))
+          throw InputError({frame->name}, budget_.refusal("the photograph"),
+                           std::string(max_memory_hint) + ", --scale makes it smaller");
+        pixels += size;
+      }
+    // In the file, opaque pixels have three bytes.
+    const double bytes = 0.5 * 3 * pixels - double(left_);
+    if (bytes <= 0) return;
+    file_ = std::make_shared<ScratchFile>();
+    std::error_code unknown;
+    const fs::space_info space = fs::space(scratch_folder(), unknown);
+    if (!unknown && bytes > double(space.available))
+      throw OutputError({scratch_folder().string()},
+                        "the photographs need at least " + memory_size_text(std::uint64_t(bytes)) +
+                            " in a temporary file, but the disk has " +
+                            memory_size_text(space.available),
+                        scratch_hint);
+  }
+
+  /// `photograph`: its memory is charged to the budget.
+  void keep(Photograph& photograph) {
+    const std::uint64_t bytes = photograph.bytes();
+    if (bytes <= left_) {
+      left_ -= bytes;
+      return;
+    }
+    if (!file_) file_ = std::make_shared<ScratchFile>();
+    photograph.move_to(file_);
+    budget_.give_back(bytes);
+  }
+
+ private:
+  MemoryBudget budget_;
+  std::uint64_t left_;
+  std::shared_ptr<ScratchFile> file_;
+};
 
 /// Between the left and the right edge, in degrees.
 double angle_of_view(const Camera& camera) {
@@ -186,6 +228,7 @@ struct Observed {
   int lost_columns = 0, lost_rows = 0;
   int shrunk = 1;
   std::uint64_t turned = 0, with_orientation = 0;
+  glm::dvec3 up{0};  // sum of the photographs' up axes, as viewers show them
 
   void add(const DatasetFrame& frame, const ReadPhotograph& read) {
     if (frame.lens.is_fisheye())
@@ -196,7 +239,10 @@ struct Observed {
     lost_rows = std::max(lost_rows, read.lost_rows);
     shrunk = std::max(shrunk, read.shrunk);
     turned += read.was_turned;
-    with_orientation += read.ignores_orientation;
+    with_orientation += read.ignored_orientation > 1;
+    const glm::dmat3 axes = read.photograph.camera.world_from_view_rotation();
+    const glm::ivec2 top = stored_top(read.ignored_orientation);
+    up += double(top.x) * axes[0] + double(top.y) * axes[1];
   }
 
   void add_remarks(std::vector<Remark>& list) const {
@@ -229,10 +275,8 @@ void require_size_of_first(const ReadPhotograph& read, const fs::path& image, do
 }
 
 /// Decides what alpha is, and applies it to all photographs.
-void settle_alpha(Dataset& dataset, const std::optional<AlphaMeaning>& wanted) {
-  std::vector<const Photograph*> all;
-  for (const auto* part : {&dataset.train, &dataset.test})
-    for (const Photograph& photograph : *part) all.push_back(&photograph);
+void settle_alpha(Dataset& dataset, const std::vector<AlphaCounts>& all,
+                  const std::optional<AlphaMeaning>& wanted) {
   const AlphaUse use = alpha_of(all);
   const AlphaMeaning meaning = wanted.value_or(use.meaning);
   for (auto* part : {&dataset.train, &dataset.test})
@@ -286,11 +330,13 @@ Dataset read_dataset(const fs::path& path, const DatasetOptions& given) {
   FoundDataset found = find_dataset(path, given, budget);
   DatasetOptions options = given;
   options.images_folder = found.outline.images_folder;
-  require_budget(found.outline.file, found.frames, options, budget);
+  PixelStore store(budget);
+  store.require_space(found.frames, options);
 
   Dataset dataset = std::move(found.outline.dataset);
   const std::size_t trained = found.outline.train.size();
   Observed observed;
+  std::vector<AlphaCounts> alpha;
   std::uint64_t masked = 0;  // photographs with ignored pixels
   glm::ivec2 first_size(0);  // of images whose size the dataset does not give
   std::size_t read_count = 0;
@@ -313,17 +359,27 @@ Dataset read_dataset(const fs::path& path, const DatasetOptions& given) {
       require_size_of_first(read, found.files[i].image, options.scale, first_size);
     observed.add(frame, read);
     masked += !read.photograph.ignored.empty();
+    alpha.push_back(read.alpha);
+    store.keep(read.photograph);
     (i < trained ? dataset.train : dataset.test).push_back(std::move(read.photograph));
   }
   found.skipped.require_enough(found.outline.file, read_count, options.is_strict);
   if (options.part != DatasetPart::test && dataset.train.empty())
     throw InputError({found.outline.file}, "no photograph is left to train on");
   found.skipped.add_remarks(dataset.remarks, read_count);
+  // The outline has the mean of the cameras' up axes, which lie on their side in such photographs.
+  const auto& list = dataset.remarks;
+  const bool is_mean = std::any_of(list.begin(), list.end(), [](const Remark& remark) {
+    return remark.kind == &remarks::up_of_cameras || remark.kind == &remarks::up_of_no_camera;
+  });
+  if (is_mean && observed.with_orientation > 0 &&
+      glm::length(observed.up) > least_mean_up * double(read_count))
+    dataset.up = glm::vec3(glm::normalize(observed.up));
   observed.add_remarks(dataset.remarks);
   if (masked > 0)
     dataset.remarks.push_back(
         {&remarks::pixels_masked, {{"masked", masked}, {"all", std::uint64_t(read_count)}}});
-  settle_alpha(dataset, options.alpha);
+  settle_alpha(dataset, alpha, options.alpha);
   if (options.progress) options.progress(1.0);
   return dataset;
 }

@@ -55,7 +55,8 @@ struct DatasetOptions {
 /// than its camera, an unsupported lens, a pose whose matrix differs from a rotation by more than
 /// about 0.001, or a named mask that is missing. Throws InputError with the file and the reason:
 /// fewer than three photographs are then left, or more are skipped than left; a part without
-/// photographs; or photographs that exceed the memory budget (base/memory_budget.hpp).
+/// photographs; or one that exceeds the memory budget (base/memory_budget.hpp). Photographs beyond
+/// half of the budget are in a temporary file; throws OutputError if that cannot be written.
 Dataset read_dataset(const std::filesystem::path& path, const DatasetOptions& options = {});
 
 /// The lens of a photograph before read_dataset() resamples it to a pinhole image.

@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "base/existing_path.hpp"
+#include "base/extension.hpp"
 #include "base/text_scanner.hpp"
 #include "formats/dataset/bundler.hpp"
 #include "formats/dataset/colmap.hpp"
@@ -93,8 +94,7 @@ void take_mean_up(const Frames& frames, bool y_down, Dataset& dataset) {
   for (const DatasetFrame& frame : frames)
     sum += glm::dvec3(frame.view_from_world[0][1], frame.view_from_world[1][1],
                       frame.view_from_world[2][1]);
-  // The mean of scattered axes is short.
-  if (glm::length(sum) > 0.1 * double(frames.size())) {
+  if (glm::length(sum) > least_mean_up * double(frames.size())) {
     dataset.up = glm::vec3(glm::normalize(sum));
     dataset.remarks.push_back({&remarks::up_of_cameras});
   } else {
@@ -257,7 +257,13 @@ DatasetOutline read_outline(const fs::path& path, const DatasetOptions& options,
                             const MemoryBudget& budget) {
   require_there(path);
   std::error_code ignored;
-  if (!fs::is_directory(path, ignored)) return one_transforms_file(path, options, budget);
+  if (!fs::is_directory(path, ignored)) {
+    if (extension_of(path) != ".json")
+      throw InputError({path.string()}, "is neither a folder nor a transforms.json",
+                       "for photographs without cameras, pass their folder or a video to tureen "
+                       "cameras or train");
+    return one_transforms_file(path, options, budget);
+  }
   for (const char* name : {"transforms_train.json", "transforms_test.json"})
     if (is_there(path / name)) return file_a_split(path, options, budget);
   if (is_there(path / "transforms.json"))

@@ -19,6 +19,9 @@ struct DatasetOutline {
   bool has_own_test = false;
 };
 
+/// The mean of scattered up axes is shorter, and is no up.
+inline constexpr double least_mean_up = 0.1;
+
 /// Throws InputError: the folder is no dataset, or a file of it cannot be read.
 DatasetOutline read_outline(const std::filesystem::path& path, const DatasetOptions& options,
                             const MemoryBudget& budget);

@@ -171,7 +171,7 @@ ReadPhotograph read_photograph(const DatasetFrame& frame, const FoundPhotograph&
     const glm::ivec2 stored(image.width, image.height);
     result.was_turned = frame.size && stored.x != stored.y && swaps_sides(orientation) &&
                         is_part(exchanged(stored), *frame.size, options.images_folder);
-    result.ignores_orientation = !result.was_turned;
+    if (!result.was_turned) result.ignored_orientation = orientation;
     if (result.was_turned) image = turned(image, orientation);
   }
   result.shrunk = factor_of(frame, image, options.images_folder, input.name());
@@ -220,10 +220,11 @@ ReadPhotograph read_photograph(const DatasetFrame& frame, const FoundPhotograph&
   result.lost_columns = size.x - photograph.camera.width;
   result.lost_rows = size.y - photograph.camera.height;
   const bool crop = result.lost_columns + result.lost_rows > 0;
-  photograph.image = crop ? cropped(image, known) : std::move(image);
+  if (crop) image = cropped(image, known);
+  result.alpha = alpha_counts(image);
+  photograph.image = std::move(image);
   if (found.mask) photograph.ignored = ignored_pixels(mask, size.x, known, found.mask->string());
-  passing.keep(photograph.image.pixels.size() * sizeof photograph.image.pixels[0] +
-               photograph.ignored.size());
+  passing.keep(photograph.bytes());
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/memory_budget.hpp"
+#include "formats/dataset/alpha.hpp"
 #include "formats/dataset/dataset.hpp"
 #include "formats/dataset/dataset_frame.hpp"
 #include "formats/dataset/near_files.hpp"
@@ -36,8 +37,10 @@ struct ReadPhotograph {
   int lost_columns = 0, lost_rows = 0;
   /// How many times smaller than the camera's the image is, beyond its folder; 1: as large.
   int shrunk = 1;
-  bool was_turned = false;           // by its EXIF orientation
-  bool ignores_orientation = false;  // which the camera does not have
+  AlphaCounts alpha = {};
+  bool was_turned = false;  // by its EXIF orientation
+  /// That which the camera does not have; 1: none.
+  int ignored_orientation = 1;
 };
 
 /// Decodes the photograph and scales it by `options.scale`. A pixel is ignored if any pixel of the

@@ -98,4 +98,10 @@ Image8 turned(const Image8& image, int orientation) {
   return result;
 }
 
+glm::ivec2 stored_top(int orientation) {
+  if (orientation <= 2) return {0, 1};
+  if (orientation <= 4) return {0, -1};
+  return {orientation <= 6 ? -1 : 1, 0};
+}
+
 }  // namespace tureen

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <glm/vec2.hpp>
 #include <optional>
 #include <span>
 
@@ -18,6 +19,9 @@ std::optional<double> exif_focal_length(std::span<const std::byte> file);
 
 /// The image as a viewer shows it with this orientation, 1 to 8.
 Image8 turned(const Image8& image, int orientation);
+
+/// Where the top of the turned image is in the stored one: (0, 1) is its own top, (1, 0) its right.
+glm::ivec2 stored_top(int orientation);
 
 /// Whether the orientation exchanges width and height.
 inline bool swaps_sides(int orientation) { return orientation >= 5; }

@@ -98,7 +98,9 @@ void judge_matches(const MatchFacts& matches, bool is_placed, CameraQuality& qua
   // A pair that one homography explains is common, 41 % of the fox's; nearly all pairs of a set are
   // not.
   constexpr double most = 0.8;
-  const bool is_flat = matches.flat_pairs > most;
+  // All pairs of four photographs: fewer are flat by chance.
+  constexpr std::size_t evidence = 6;
+  const bool is_flat = matches.flat_pairs > most && matches.pairs >= evidence;
   if (!is_placed && matches.features < few_features)
     quality.refusals.push_back({&remarks::few_features, {{"features", matches.features}}});
   else if (!is_placed && matches.pairs == 0)

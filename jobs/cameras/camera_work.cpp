@@ -173,7 +173,8 @@ int CameraWork::follow(const ColmapStage& stage, const fs::path& log) {
                     Process::Options{.input = Process::Input::none,
                                      .output = output.get(),
                                      .errors = output.get(),
-                                     .own_group = true});
+                                     .own_group = true,
+                                     .ends_with_us = true});
   } catch (const std::system_error& reason) {
     throw UsageError(options_.colmap + " cannot be started: " + reason.code().message());
   }

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
-#include <map>
 #include <set>
 #include <span>
 
@@ -22,29 +22,14 @@
 #include "jobs/cameras/camera_run.hpp"
 #include "jobs/cameras/colmap_stages.hpp"
 #include "jobs/cameras/feature_database.hpp"
+#include "scene/clip_range.hpp"
+#include "scene/region.hpp"
 
 namespace tureen {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-glm::dvec3 forward(const Camera& camera) { return -camera.world_from_view_rotation()[2]; }
-
-/// The point nearest to all viewing axes, by least squares. `guard` keeps parallel axes solvable.
-glm::dvec3 focus_of(const std::vector<Camera>& cameras) {
-  constexpr double guard = 1e-6;
-  glm::dmat3 sum(guard);
-  glm::dvec3 right(0), mean(0);
-  for (const Camera& camera : cameras) {
-    const glm::dvec3 axis = forward(camera);
-    const glm::dmat3 across = glm::dmat3(1) - glm::outerProduct(axis, axis);
-    sum += across;
-    right += across * camera.eye();
-    mean += camera.eye() / double(cameras.size());
-  }
-  return glm::inverse(sum) * (right + guard * mean);
-}
 
 /// Points on a grid of the camera's image, at half, once and twice the distance.
 std::vector<glm::dvec3> seen_points(const Camera& camera, double distance) {
@@ -74,12 +59,10 @@ std::string name_of(std::size_t index) { return fmt::format("{:06}.png", index);
 void write_model(const std::vector<Photograph>& photographs, const FeatureDatabase& database,
                  const fs::path& folder) {
   std::string cameras, images;
-  std::map<std::string, const Photograph*> by_name;
-  for (std::size_t i = 0; i < photographs.size(); ++i) by_name[name_of(i)] = &photographs[i];
   for (const FeatureDatabase::Photo& photo : database.photos()) {
-    const auto found = by_name.find(photo.name);
-    if (found == by_name.end()) continue;
-    const Camera& camera = found->second->camera;
+    const auto index = std::size_t(std::atoi(photo.name.c_str()));
+    if (index >= photographs.size() || photo.name != name_of(index)) continue;
+    const Camera& camera = photographs[index].camera;
     cameras += fmt::format("{} PINHOLE {} {} {} {} {} {}\n", photo.camera, camera.width,
                            camera.height, camera.fx, camera.fy, camera.cx, camera.cy);
     // COLMAP's y points down, its z forward.
@@ -122,7 +105,7 @@ fs::path place_of_points(const fs::path& dataset) {
 }  // namespace
 
 PhotoPairs overlapping_pairs(const std::vector<Camera>& cameras, std::size_t most) {
-  const glm::dvec3 focus = focus_of(cameras);
+  const glm::dvec3 focus = region_of_cameras(cameras).value_or(Region{}).center;
   const std::size_t count = cameras.size();
   std::vector<std::vector<glm::dvec3>> points;
   std::vector<double> distances;
@@ -139,7 +122,7 @@ PhotoPairs overlapping_pairs(const std::vector<Camera>& cameras, std::size_t mos
   for (std::size_t i = 0; i < count; ++i) {
     std::vector<std::pair<double, std::size_t>> others;  // apart, index
     for (std::size_t j = 0; j < count; ++j) {
-      const double toward = glm::dot(forward(cameras[i]), forward(cameras[j]));
+      const double toward = glm::dot(forward_of(cameras[i]), forward_of(cameras[j]));
       if (j == i || toward < 0.5) continue;
       const double overlap = std::min(share(i, j), share(j, i));
       if (overlap < 0.2) continue;  // a fifth of the image, where features still match
@@ -185,19 +168,17 @@ PointOutcome add_points(const PointOptions& options, const CameraEvents& events)
   make_folder(setup.images);
   work.run("images", "preparing photographs", 0.2 * double(count), [&](const auto& progress) {
     on_all_cores(count, progress, [&](std::size_t i, const auto&) {
-      write_file(setup.images / name_of(i), encode_png(opaque(photographs[i].image)));
+      write_file(setup.images / name_of(i), encode_png(opaque(photographs[i].image())));
     });
   });
 
   std::vector<Camera> cameras;
   std::vector<std::string> names;
-  std::string list;
   for (std::size_t i = 0; i < count; ++i) {
     cameras.push_back(photographs[i].camera);
     names.push_back(name_of(i));
-    list += names.back() + "\n";
   }
-  write_file(work / "features.txt", list);
+  write_file(work / "features.txt", fmt::format("{}\n", fmt::join(names, "\n")));
   const PhotoPairs pairs = overlapping_pairs(cameras, 20);
   FeatureRequest request{.list = work / "features.txt",
                          .photographs = count,

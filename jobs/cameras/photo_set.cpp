@@ -42,14 +42,24 @@ std::vector<fs::path> images_in(const fs::path& folder) {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// The digits at the beginning, without leading zeros; removes them from `text`.
-std::string_view take_number(std::string_view& text) {
-  std::size_t digits = 0;
-  while (digits < text.size() && is_digit(text[digits])) ++digits;
-  std::string_view number = text.substr(0, digits);
-  text.remove_prefix(digits);
-  while (number.size() > 1 && number.front() == '0') number.remove_prefix(1);
-  return number;
+/// Text that orders names as people do: before each number, its number of digits without zeros in
+/// front.
+std::string sort_key(std::string_view name) {
+  std::string key;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    if (!is_digit(name[i])) {
+      key += name[i];
+      continue;
+    }
+    std::size_t end = i + 1;
+    while (end < name.size() && is_digit(name[end])) ++end;
+    while (i + 1 < end && name[i] == '0') ++i;
+    key += '0';  // a digit, where one stood
+    key += char(std::min<std::size_t>(end - i, 127));
+    key += name.substr(i, end - i);
+    i = end - 1;
+  }
+  return key;
 }
 
 /// Reads size and focal length from the header; from all of the file if a long EXIF block precedes
@@ -70,31 +80,19 @@ void read_header(PhotoFile& photo) {
   }
 }
 
-/// Whether two files of equal size have the same bytes.
-bool same_bytes(const fs::path& a, const fs::path& b) {
-  Input first = Input::open(a), second = Input::open(b);
-  std::array<std::byte, 1 << 16> left, right;
-  while (true) {
-    const std::size_t count = first.read_some(left);
-    if (second.read_some(right) != count ||
-        !std::equal(left.begin(), left.begin() + std::ptrdiff_t(count), right.begin()))
-      return false;
-    if (count == 0) return true;
-  }
-}
-
 void leave_out_copies(PhotoSet& set) {
   std::multimap<std::uint64_t, fs::path> kept;  // by size in bytes
   std::vector<std::string> copies;
   const auto is_copy = [&](const PhotoFile& photo) {
     const auto [first, last] = kept.equal_range(photo.bytes);
-    for (auto other = first; other != last; ++other)
-      if (same_bytes(photo.path, other->second)) {
-        copies.push_back(photo.name);
-        return true;
-      }
-    kept.emplace(photo.bytes, photo.path);
-    return false;
+    const bool found = std::any_of(first, last, [&](const auto& other) {
+      return Input::open(photo.path).read_rest() == Input::open(other.second).read_rest();
+    });
+    if (found)
+      copies.push_back(photo.name);
+    else
+      kept.emplace(photo.bytes, photo.path);
+    return found;
   };
   std::erase_if(set.photos, is_copy);
   if (copies.empty()) return;
@@ -116,19 +114,7 @@ void give_names(PhotoSet& set) {
 }  // namespace
 
 bool natural_less(std::string_view a, std::string_view b) {
-  const auto whole = std::pair(a, b);
-  while (!a.empty() && !b.empty()) {
-    if (is_digit(a.front()) && is_digit(b.front())) {
-      const std::string_view first = take_number(a), second = take_number(b);
-      if (first != second) return std::pair(first.size(), first) < std::pair(second.size(), second);
-    } else if (a.front() != b.front()) {
-      return a.front() < b.front();
-    } else {
-      a.remove_prefix(1);
-      b.remove_prefix(1);
-    }
-  }
-  return a.size() != b.size() ? a.size() < b.size() : whole.first < whole.second;
+  return std::pair(sort_key(a), a) < std::pair(sort_key(b), b);
 }
 
 std::optional<fs::path> folder_of_photographs(const fs::path& folder) {
@@ -159,7 +145,9 @@ PhotoSet find_photographs(const fs::path& folder, const std::function<void(doubl
   }
   if (set.photos.empty()) {
     if (first_failure) throw InputError(*first_failure);
-    throw InputError({folder.string()}, "the folder has no photographs",
+    throw InputError({folder.string()},
+                     fs::is_directory(folder) ? "the folder has no photographs"
+                                              : "is neither a folder nor a video",
                      "pass a folder of PNG, JPEG or WebP images, or a video");
   }
   give_names(set);

@@ -6,13 +6,15 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
+#include <cstdio>
+#include <iterator>
 #include <memory>
-#include <numeric>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <thread>
 
+#include "base/decimal.hpp"
 #include "base/error.hpp"
 #include "base/existing_path.hpp"
 #include "base/extension.hpp"
@@ -24,6 +26,7 @@ namespace tureen {
 namespace {
 
 namespace fs = std::filesystem;
+using namespace std::string_literals;
 
 constexpr int thumbnail_side = 32, block = video_frame_side / thumbnail_side;
 
@@ -40,60 +43,54 @@ Facts facts_of(const fs::path& video) {
       output_of("ffprobe", {"-v", "error", "-select_streams", "v:0", "-show_entries",
                             "stream=avg_frame_rate:format=duration", "-of",
                             "default=noprint_wrappers=1", input_of(video)});
-  const auto value = [&](const std::string& key) -> const char* {
+  // A fraction, such as 30000/1001; 0 without the key, and below 0.
+  const auto value = [&](const std::string& key) {
     const std::size_t at = text.find(key);
-    return at == std::string::npos ? "" : text.c_str() + at + key.size();
+    if (at == std::string::npos) return 0.0;
+    const std::string_view rest = std::string_view(text).substr(at + key.size());
+    const Decimal above = parse_decimal(rest);
+    if (!above.end || *above.end != '/') return double(above.value);
+    const Decimal below = parse_decimal(above.end + 1);
+    return below.value > 0 ? double(above.value) / double(below.value) : 0.0;
   };
-  char* end = nullptr;
-  const double rate = std::strtod(value("avg_frame_rate="), &end);
-  const double below = end && *end == '/' ? std::strtod(end + 1, nullptr) : 1;
-  const Facts facts{.seconds = std::strtod(value("duration="), nullptr),
-                    .frames_per_second = below > 0 ? rate / below : 0};
+  const Facts facts{.seconds = value("duration="), .frames_per_second = value("avg_frame_rate=")};
   if (text.find("avg_frame_rate=") == std::string::npos)
     throw InputError({video.string()}, "ffmpeg finds no video in this file");
   return facts;
 }
 
-class Ffmpeg {
- public:
-  Ffmpeg(const fs::path& video, std::vector<std::string> arguments, bool received)
-      : video_(video), complaints_(std::tmpfile(), &std::fclose) {
-    if (!complaints_) throw OutputError({}, "cannot create a temporary file for ffmpeg");
-    std::vector<std::string> all{"-nostdin", "-hide_banner", "-v", "error", "-i", input_of(video)};
-    std::move(arguments.begin(), arguments.end(), std::back_inserter(all));
-    try {
-      process_ = std::make_unique<Process>("ffmpeg", all,
-                                           Process::Options{.input = Process::Input::none,
-                                                            .output = nullptr,
-                                                            .errors = complaints_.get(),
-                                                            .received = received,
-                                                            .own_group = true});
-    } catch (const std::system_error& reason) {
-      throw OutputError({}, "ffmpeg cannot be started: " + reason.code().message());
-    }
+/// Runs ffmpeg on the video, with `work` meanwhile. Throws InputError with its message if it fails.
+void run_ffmpeg(const fs::path& video, std::vector<std::string> arguments, bool received,
+                const std::function<void(Process&)>& work) {
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> complaints(std::tmpfile(), &std::fclose);
+  if (!complaints) throw OutputError({}, "cannot create a temporary file for ffmpeg");
+  const std::array first{"-nostdin"s, "-v"s, "error"s, "-i"s, input_of(video)};
+  arguments.insert(arguments.begin(), first.begin(), first.end());
+  std::optional<Process> process;
+  try {
+    process.emplace("ffmpeg", arguments,
+                    Process::Options{.input = Process::Input::none,
+                                     .output = nullptr,
+                                     .errors = complaints.get(),
+                                     .received = received,
+                                     .own_group = true,
+                                     .ends_with_us = true});
+  } catch (const std::system_error& reason) {
+    throw OutputError({}, "ffmpeg cannot be started: " + reason.code().message());
   }
-  ~Ffmpeg() {
-    if (process_) process_->kill();
+  try {
+    work(*process);
+  } catch (...) {
+    process->kill();
+    throw;
   }
-  Process& process() { return *process_; }
-
-  /// Throws InputError with ffmpeg's message unless it succeeded.
-  void finish() {
-    const int code = process_->wait();
-    if (code == 0) return;
-    std::string text(500, '\0');
-    std::rewind(complaints_.get());
-    text.resize(std::fread(text.data(), 1, text.size(), complaints_.get()));
-    text = text.substr(0, std::min<std::size_t>(200, text.find('\n')));
-    throw InputError({video_.string()}, "ffmpeg cannot decode the video" +
-                                            (text.empty() ? std::string() : ": " + text));
-  }
-
- private:
-  const fs::path& video_;
-  std::unique_ptr<std::FILE, int (*)(std::FILE*)> complaints_;
-  std::unique_ptr<Process> process_;
-};
+  if (process->wait() == 0) return;
+  std::string text(200, '\0');
+  std::rewind(complaints.get());
+  text.resize(std::fread(text.data(), 1, text.size(), complaints.get()));
+  throw InputError({video.string()},
+                   "ffmpeg cannot decode the video: " + text.substr(0, text.find('\n')));
+}
 
 }  // namespace
 
@@ -162,20 +159,18 @@ void take_video_frames(const fs::path& video, const fs::path& folder,
   const Facts facts = facts_of(video);
   const double expected = std::max(1.0, facts.seconds * facts.frames_per_second);
   std::vector<FrameFacts> frames;
-  {
-    const std::string side = std::to_string(video_frame_side);
-    Ffmpeg small(video,
-                 {"-an", "-fps_mode", "passthrough", "-vf", "scale=" + side + ":" + side,
-                  "-pix_fmt", "gray", "-f", "rawvideo", "-"},
-                 true);
-    std::vector<std::uint8_t> frame(std::size_t(video_frame_side) * video_frame_side);
-    FrameMeter meter;
-    while (small.process().receive(std::as_writable_bytes(std::span(frame))) == frame.size()) {
-      frames.push_back(meter.measure(frame));
-      progress(0.5 * std::min(1.0, double(frames.size()) / expected));
-    }
-    small.finish();
-  }
+  const std::string side = std::to_string(video_frame_side);
+  run_ffmpeg(video,
+             {"-an", "-fps_mode", "passthrough", "-vf", "scale=" + side + ":" + side, "-pix_fmt",
+              "gray", "-f", "rawvideo", "-"},
+             true, [&](Process& small) {
+               std::vector<std::uint8_t> frame(std::size_t(video_frame_side) * video_frame_side);
+               FrameMeter meter;
+               while (small.receive(std::as_writable_bytes(std::span(frame))) == frame.size()) {
+                 frames.push_back(meter.measure(frame));
+                 progress(0.5 * std::min(1.0, double(frames.size()) / expected));
+               }
+             });
   if (frames.empty()) throw InputError({video.string()}, "the video has no frames");
   // ffmpeg refuses sums of more than about a hundred terms, but not sums of sums.
   std::string select;
@@ -185,20 +180,17 @@ void take_video_frames(const fs::path& video, const fs::path& folder,
   select += ")";
   std::string output;  // in which % begins a number
   for (const char c : folder.string()) output += c == '%' ? "%%" : std::string(1, c);
-  Ffmpeg full(video,
-              {"-an", "-vf", "select='" + select + "'", "-fps_mode", "passthrough", "-q:v", "2",
-               "-y", "file:" + output + "/%05d.jpg"},
-              false);
-  while (!full.process().ended()) {
-    std::error_code error;
-    std::size_t written = 0;
-    for (fs::directory_iterator at(folder, error); !error && at != fs::directory_iterator();
-         at.increment(error))
-      ++written;
-    progress(0.5 + 0.5 * std::min(1.0, double(written) / double(chosen.size())));
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  }
-  full.finish();
+  run_ffmpeg(video,
+             {"-an", "-vf", "select='" + select + "'", "-fps_mode", "passthrough", "-q:v", "2",
+              "-y", "file:" + output + "/%05d.jpg"},
+             false, [&](Process& full) {
+               while (!full.ended()) {
+                 std::error_code error;
+                 const auto written = std::distance(fs::directory_iterator(folder, error), {});
+                 progress(0.5 + 0.5 * std::min(1.0, double(written) / double(chosen.size())));
+                 std::this_thread::sleep_for(std::chrono::milliseconds(100));
+               }
+             });
 }
 
 }  // namespace tureen

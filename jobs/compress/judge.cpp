@@ -50,8 +50,8 @@ CompressJudge::CompressJudge(const gl::Context& context, const Scene& scene,
       background_(scene.info.background) {
   for (const Photograph& photograph : photographs) {
     cameras_.push_back(photograph.camera);
-    photographs_.push_back(composited(to_float(photograph.image), background_));
-    ignored_.push_back(photograph.ignored);
+    photographs_.push_back(composited(to_float(photograph.image()), background_));
+    ignored_.push_back(photograph.ignored());
   }
   if (!photographs_.empty()) {
     views_.photographs = photographs_.size();

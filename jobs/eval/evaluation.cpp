@@ -28,13 +28,14 @@ double hole_fraction(const ImageF& photograph, const ImageF& drawn) {
 /// The errors of a drawn view. Runs on any thread.
 ViewMetrics measure(std::size_t view, const Photograph& photograph, const Image8& rendering,
                     const EvaluationOptions& options) {
-  ImageF truth = composited(to_float(photograph.image), options.background);
+  ImageF truth = composited(to_float(photograph.image()), options.background);
+  const std::vector<std::uint8_t> ignored = photograph.ignored();
   const ImageF drawn = to_float(rendering);
-  const double counted = equate_ignored(drawn, photograph.ignored, truth);
-  for (std::size_t i = 0; i < photograph.ignored.size(); ++i)
-    if (photograph.ignored[i]) truth.pixels[i].a = 0;  // not among the opaque pixels
+  const double counted = equate_ignored(drawn, ignored, truth);
+  for (std::size_t i = 0; i < ignored.size(); ++i)
+    if (ignored[i]) truth.pixels[i].a = 0;  // not among the opaque pixels
   MetricOptions metric_options = options.metrics;
-  metric_options.ignored = photograph.ignored;
+  metric_options.ignored = ignored;
   const Metrics metrics = compare(truth, drawn, metric_options);
   if (options.on_view) options.on_view(view, truth, drawn);
   return {.name = photograph.camera.name,

@@ -45,6 +45,7 @@ TrainingView small_view(const Photograph& photograph, const FirstGaussians& firs
          std::min(view.camera.width, view.camera.height) >= 2 * min_side)
     view = trainer::halved(view);
   view.camera = trainer::relative_to(view.camera, region.center);
+  if (photograph.file()) trainer::store(view, photograph.file());
   return view;
 }
 

@@ -35,9 +35,10 @@ Dataset noise() {
     Photograph& photograph = dataset.train.emplace_back();
     photograph.camera =
         look_at({4 * std::cos(turn), 4 * std::sin(turn), 1}, {0, 0, 0}, {0, 0, 1}, 0.7, size, size);
-    photograph.image = Image8(size, size, glm::u8vec4(255));
-    for (glm::u8vec4& pixel : photograph.image.pixels)
+    Image8 image(size, size);
+    for (glm::u8vec4& pixel : image.pixels)
       pixel = glm::u8vec4(glm::u8vec3(random.below(256)), 255);
+    photograph.image = std::move(image);
   }
   return dataset;
 }
@@ -72,7 +73,7 @@ double measured_seconds_per_pixel(int threads) {
     times.push_back(starts[i] - starts[i - 1]);
   std::ranges::nth_element(times, times.begin() + std::ptrdiff_t(times.size() / 2));
   return times[times.size() / 2] /
-         (double(dataset.train.front().image.pixels.size()) + pixels_of_splats);
+         (double(dataset.train.front().image.pixels()) + pixels_of_splats);
 }
 
 FullPhotographs full_photographs(const std::filesystem::path& dataset, DatasetOptions options) {

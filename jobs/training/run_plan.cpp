@@ -45,10 +45,14 @@ std::string primitives_text(const RunPlan& plan) {
 
 RunPlan plan_for(const Dataset& dataset) {
   const Camera& first = dataset.train.front().camera;
+  std::uint64_t file_bytes = 0;
+  for (const auto* views : {&dataset.train, &dataset.test})
+    for (const Photograph& view : *views) file_bytes += view.file() ? view.bytes() : 0;
   return {.train_views = dataset.train.size(),
           .test_views = dataset.test.size(),
           .width = first.width,
-          .height = first.height};
+          .height = first.height,
+          .file_bytes = file_bytes};
 }
 
 std::vector<std::string> describe(const RunPlan& plan) {
@@ -61,6 +65,8 @@ std::vector<std::string> describe(const RunPlan& plan) {
   for (const OwnFact& detail : plan.details) line += ", " + detail.text;
   line += "; " + plan.device;
   if (plan.bytes > 0) line += ", about " + memory_size_text(plan.bytes) + " of memory";
+  if (plan.file_bytes > 0)
+    line += ", " + memory_size_text(plan.file_bytes) + " of photographs in a temporary file";
   lines.push_back(std::move(line));
   return lines;
 }
@@ -79,6 +85,7 @@ Json to_json(const RunPlan& plan) {
           {"last", plan.last},
           {"device", plan.device},
           {"bytes", plan.bytes},
+          {"file_bytes", plan.file_bytes},
           {"details", to_json(plan.details)},
           {"notes", to_json(plan.notes)},
           {"text", describe(plan)},

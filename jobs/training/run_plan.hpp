@@ -31,6 +31,7 @@ struct RunPlan {
   std::uint64_t last = 0;             // at the end: of triangles; of splats at most
   std::string device = {};            // "CPU, 2 threads"
   std::uint64_t bytes = 0;            // of memory, an estimate; 0: unknown
+  std::uint64_t file_bytes = 0;       // of photographs that memory does not hold
   std::vector<OwnFact> details = {};  // phrases: "textures of level 4"
   std::vector<OwnFact> notes = {};    // sentences: why the constants are as they are, and warnings
   std::string constants = {};         // JSON, as --config takes it

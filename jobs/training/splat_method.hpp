@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "base/existing_path.hpp"
 #include "base/memory_budget.hpp"
+#include "base/platform/scratch_file.hpp"
 #include "jobs/training/methods.hpp"
 #include "jobs/training/training_scale.hpp"
 #include "trainer/common/plain_background.hpp"
@@ -121,6 +122,11 @@ class SplatMethod : public TrainingMethod {
       if (start) start = &scaled_start.emplace(scaled_scene(*start, scale));
       run = in_world_units(std::move(run), dataset, scale);
     }
+    if (moves_photographs_) {
+      const auto file = std::make_shared<ScratchFile>();
+      for (auto* views : {&dataset.train, &dataset.test})
+        for (Photograph& view : *views) view.move_to(file);
+    }
     if (checkpoint_) require_same_views(dataset, checkpoint_->views);
     RunPlan plan = plan_for(dataset);
     if (scale != 1)
@@ -211,10 +217,16 @@ class SplatMethod : public TrainingMethod {
     config.max_splats = fitting.splats;
   }
 
-  /// Lowers max_splats so that the run fits in --max-memory.
+  /// Moves the photographs to a file, then lowers max_splats, so that the run fits in --max-memory.
   void limit_memory(const Dataset& dataset) {
-    if (!options_.max_memory || checkpoint_) return;
-    const auto fitting = trainer::max_splats_within(*options_.max_memory, config_, dataset);
+    if (!options_.max_memory) return;
+    using trainer::PhotographPlace;
+    // Photographs leave the memory before the scene gets fewer splats.
+    moves_photographs_ = trainer::splat_memory(config_, dataset) > *options_.max_memory;
+    if (checkpoint_) return;
+    const auto fitting = trainer::max_splats_within(
+        *options_.max_memory, config_, dataset,
+        moves_photographs_ ? PhotographPlace::in_file : PhotographPlace::as_now);
     if (!fitting)
       throw UsageError("--max-memory " + memory_size_text(*options_.max_memory) +
                            " is too little for these photographs and 1,000 splats",
@@ -226,7 +238,7 @@ class SplatMethod : public TrainingMethod {
   const TrainingOptions& options_;
   std::optional<Checkpoint> checkpoint_;
   Config config_;
-  bool is_limited_ = false;
+  bool is_limited_ = false, moves_photographs_ = false;
   double replaced_minutes_ = 0;  // of a file, by --steps; 0: none
 };
 

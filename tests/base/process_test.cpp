@@ -5,8 +5,10 @@
 #include <csignal>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <system_error>
+#include <thread>
 #include <vector>
 
 #include "base/platform/program_folder.hpp"
@@ -106,6 +108,19 @@ TEST(Processes, AreInterruptedAndKilled) {
   Process second("sleep", {"600"}, {});
   second.kill();
   EXPECT_TRUE(second.ended());
+}
+
+TEST(Processes, EndWithTheThreadThatStartsThem) {
+  if (!is_on_path("setpriv")) GTEST_SKIP() << "no setpriv here";
+  const File output = temporary_file();
+  std::optional<Process> sleeper;
+  std::thread([&] {
+    sleeper.emplace("sh", std::vector<std::string>{"-c", "echo ready; exec sleep 600"},
+                    Process::Options{.output = output.get(), .ends_with_us = true});
+    while (text_in(output).empty() && !sleeper->ended()) {
+    }
+  }).join();
+  EXPECT_EQ(sleeper->wait(), 128 + SIGKILL);
 }
 
 TEST(Processes, EndAlsoIfTheyIgnoreSignals) {

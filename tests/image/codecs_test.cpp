@@ -95,6 +95,16 @@ std::vector<std::byte> jpeg_with(int orientation, bool big_endian) {
   return bytes;
 }
 
+TEST(Exif, TheTopIsWhereTurningTakesItFrom) {
+  for (int orientation = 1; orientation <= 8; ++orientation) {
+    // The middle of each side has its own value.
+    Image8 stored(3, 3);
+    const glm::ivec2 top = stored_top(orientation);
+    stored.at(1 + top.x, 1 - top.y).r = 200;
+    EXPECT_EQ(turned(stored, orientation).at(1, 0).r, 200) << orientation;
+  }
+}
+
 TEST(Exif, OrientationIsFoundInBothByteOrders) {
   for (const bool big_endian : {false, true}) {
     for (int orientation = 1; orientation <= 8; ++orientation)

@@ -1,6 +1,6 @@
 // Huffman tables that would overflow stb's table: they are found wherever a decoder could find
 // them, and nowhere else.
-#include "image/jpeg_tables.hpp"
+#include "image/codecs/jpeg_tables.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -84,6 +84,11 @@ TEST(Compress, MeasuresAgainstPhotographsWhereThereAreSome) {
   EXPECT_LT(result.loss.render_psnr_db, 45);
 }
 
+Image8 with_upper_half(Image8 image, glm::u8vec4 color) {
+  std::fill_n(image.pixels.begin(), image.pixels.size() / 2, color);
+  return image;
+}
+
 TEST(Compress, MaskedPixelsAreNotJudged) {
   const Scene scene = part_of_the_example(500);
   const TriangleSoup& soup = only_soup(scene);
@@ -92,10 +97,11 @@ TEST(Compress, MaskedPixelsAreNotJudged) {
   const CompressJudge whole(context, scene, photographs);
   // The upper half shows something else, which the masks exclude.
   for (Photograph& photograph : photographs) {
-    const std::size_t half = photograph.image.pixels.size() / 2;
-    photograph.ignored.assign(photograph.image.pixels.size(), 0);
-    std::fill_n(photograph.ignored.begin(), half, std::uint8_t(1));
-    std::fill_n(photograph.image.pixels.begin(), half, glm::u8vec4(255, 0, 255, 255));
+    const std::size_t half = photograph.image.pixels() / 2;
+    std::vector<std::uint8_t> ignored(2 * half, 0);
+    std::fill_n(ignored.begin(), half, std::uint8_t(1));
+    photograph.ignored = std::move(ignored);
+    photograph.image = with_upper_half(photograph.image(), {255, 0, 255, 255});
   }
   const CompressJudge masked(context, scene, photographs);
   // Each channel differs by 20.
@@ -108,8 +114,7 @@ TEST(Compress, MaskedPixelsAreNotJudged) {
   const TriangleSoup other = decode_compressed(coarse, soup);
   const double loss = masked.loss(other).db;
   for (Photograph& photograph : photographs)
-    std::fill_n(photograph.image.pixels.begin(), photograph.image.pixels.size() / 2,
-                glm::u8vec4(0, 255, 0, 255));
+    photograph.image = with_upper_half(photograph.image(), {0, 255, 0, 255});
   EXPECT_EQ(CompressJudge(context, scene, photographs).loss(other).db, loss);
 }
 

@@ -60,7 +60,9 @@ TEST(Evaluate, CountsHolesInsideTheSilhouette) {
   half.positions = {{-50, -50, 0}, {0, -50, 0}, {0, 50, 0}};  // right of the middle is nothing
   std::vector<Photograph> photographs{photograph("opaque", {100, 100, 100, 255}),
                                       photograph("upper half", {100, 100, 100, 255})};
-  for (int i = 32 * 12; i < 32 * 24; ++i) photographs[1].image.pixels[std::size_t(i)].a = 0;
+  Image8 image = photographs[1].image();
+  for (int i = 32 * 12; i < 32 * 24; ++i) image.pixels[std::size_t(i)].a = 0;
+  photographs[1].image = image;
   const Evaluation result = evaluate(half, glm::dvec3(0), photographs,
                                      {.backend = gl::Backend::osmesa, .background = glm::vec3(1)});
   EXPECT_EQ(result.views[0].holes, 0.5);
@@ -72,12 +74,16 @@ TEST(Evaluate, SkipsPixelsThatAMaskExcludes) {
   // The upper half is wrong by one fifth. Without it, the lower half is the same; without the lower
   // half, all counted pixels are wrong.
   Photograph upper = photograph("upper", {100, 100, 100, 255});
-  const std::size_t half = upper.image.pixels.size() / 2;
-  std::fill_n(upper.image.pixels.begin(), half, glm::u8vec4(151, 151, 151, 255));
-  upper.ignored.assign(2 * half, 0);
-  std::fill_n(upper.ignored.begin(), half, 1);
+  Image8 image = upper.image();
+  const std::size_t half = image.pixels.size() / 2;
+  std::fill_n(image.pixels.begin(), half, glm::u8vec4(151, 151, 151, 255));
+  upper.image = image;
+  std::vector<std::uint8_t> ignored(2 * half, 0);
+  std::fill_n(ignored.begin(), half, 1);
+  upper.ignored = ignored;
   Photograph lower = upper;
-  for (std::uint8_t& pixel : lower.ignored) pixel = pixel ? 0 : 1;
+  for (std::uint8_t& pixel : ignored) pixel = pixel ? 0 : 1;
+  lower.ignored = ignored;
   const Evaluation result = evaluate(grey_wall({100, 100, 100, 255}), glm::dvec3(0),
                                      std::vector{upper, lower}, {.backend = gl::Backend::osmesa});
   EXPECT_EQ(result.views[0].psnr_db, 100);

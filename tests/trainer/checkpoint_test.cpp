@@ -255,7 +255,11 @@ TEST(Difference, NamesTheFirstViewThatIsAnother) {
   const std::string camera = changed([](Photograph& p) { p.camera.cx += 1e-9; });
   EXPECT_THAT(camera, Names("r_1"));
   EXPECT_EQ(changed([](Photograph& p) { p.camera.view_from_world[3].x += 1e-9; }), camera);
-  const std::string pixels = changed([](Photograph& p) { p.image.pixels[11].b = 4; });
+  const std::string pixels = changed([](Photograph& p) {
+    Image8 image = p.image();
+    image.pixels[11].b = 4;
+    p.image = image;
+  });
   EXPECT_THAT(pixels, AllOf(Names("r_1"), Ne(camera)));
   EXPECT_THAT(difference(std::span(then).first(1), then).value_or(""), Names(1, 2));
 }

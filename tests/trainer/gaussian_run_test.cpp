@@ -8,6 +8,9 @@
 
 #include "base/error.hpp"
 #include "base/existing_path.hpp"
+#include "base/input.hpp"
+#include "base/platform/scratch_file.hpp"
+#include "formats/scene_file.hpp"
 #include "tests/support/errors.hpp"
 #include "trainer/common/training_log.hpp"
 #include "trainer/splats/gaussians/gaussian_training.hpp"
@@ -32,10 +35,11 @@ Dataset disc_dataset(glm::dvec3 center = {1000, -2000, 500}) {
     view.camera = look_at(center + glm::dvec3(4 * std::cos(turn), 4 * std::sin(turn), 1), center,
                           {0, 0, 1}, 0.6, size, size);
     view.camera.name = "r_" + std::to_string(k);
-    view.image = Image8(size, size, glm::u8vec4(0, 0, 0, 255));
+    Image8 image(size, size, glm::u8vec4(0, 0, 0, 255));
     for (int y = 0; y < size; ++y)
       for (int x = 0; x < size; ++x)
-        if (std::hypot(x - 11.5, y - 11.5) < 6) view.image.at(x, y) = {240, 160, 80, 255};
+        if (std::hypot(x - 11.5, y - 11.5) < 6) image.at(x, y) = {240, 160, 80, 255};
+    view.image = std::move(image);
     (k < 5 ? dataset.train : dataset.test).push_back(view);
   }
   dataset.up = {0, 0, 1};
@@ -166,6 +170,12 @@ TEST(SplatForecast, LimitsTheSplatsToTheMemory) {
   config.max_splats = *half;
   EXPECT_LE(splat_memory(config, dataset), all / 2);
   EXPECT_FALSE(max_splats_within(100'000, config, dataset));
+  Dataset moved = disc_dataset();
+  for (auto* views : {&moved.train, &moved.test})
+    for (Photograph& view : *views) view.move_to(std::make_shared<ScratchFile>());
+  const std::uint64_t photographs = 6 * size * size * 4;
+  EXPECT_EQ(splat_memory(config, moved) + photographs, splat_memory(config, dataset));
+  EXPECT_EQ(splat_memory(config, dataset, PhotographPlace::in_file), splat_memory(config, moved));
 }
 
 TEST(SplatForecast, FitsTheStepsToTheTime) {
@@ -294,6 +304,43 @@ TEST(GaussianTraining, FitsItsStepsToTheMinutesAndStoresThem) {
   GaussianRequest resumed = request(files, stored.config);
   resumed.checkpoint = std::move(stored);
   EXPECT_EQ(train_splats(again, std::move(resumed)).steps, steps);
+}
+
+void move_to_file(Dataset& dataset) {
+  const auto file = std::make_shared<ScratchFile>();
+  for (auto* views : {&dataset.train, &dataset.test})
+    for (Photograph& view : *views) view.move_to(file);
+}
+
+TEST(GaussianTraining, IsTheSameFromPhotographsInAFile) {
+  const GaussianConfig config{{.steps = 60, .max_splats = 300, .first_splats = 200}};
+  std::vector<std::vector<std::byte>> files;
+  enum { in_memory, in_file, resumed };
+  for (const int kind : {in_memory, in_file, resumed}) {
+    const Files run;
+    struct Stop {};
+    const auto train = [&](bool resumes, int stop_at) {
+      Dataset dataset = disc_dataset();
+      if (kind != in_memory) move_to_file(dataset);
+      GaussianRequest asked = request(run, config);
+      if (resumes)
+        asked.checkpoint =
+            read_splat_checkpoint<GaussianCheckpoint>(open_existing(asked.run.session.checkpoint));
+      asked.run.session.progress = [&](const SessionStatus& now) {
+        if (now.step == stop_at) throw Stop();
+      };
+      asked.run.finished = [&](const Scene& scene) { write_scene(scene, run.folder / "disc.glb"); };
+      train_splats(dataset, std::move(asked));
+    };
+    // In the first steps, the images have half their sides.
+    if (kind == resumed) {
+      EXPECT_THROW(train(false, 25), Stop);
+    }
+    train(kind == resumed, -1);
+    files.push_back(Input::open(run.folder / "disc.glb").read_rest());
+  }
+  EXPECT_EQ(files[in_file], files[in_memory]);
+  EXPECT_EQ(files[resumed], files[in_memory]);
 }
 
 TEST(GaussianTraining, SurvivesPhotographsThatShowNothing) {

@@ -63,8 +63,9 @@ TEST(HeldOut, IsMeasuredAsTheEvaluationDoes) {
   EXPECT_NEAR(mean_psnr_db(run, views), (100 + off) / 2, 1e-5);
   // A mask that excludes half of the wrong pixels: their number does not matter.
   std::vector<Photograph> masked{views[1]};
-  masked[0].ignored.assign(masked[0].image.pixels.size(), 0);
-  std::fill_n(masked[0].ignored.begin(), 96, 1);
+  std::vector<std::uint8_t> ignored(masked[0].image.pixels(), 0);
+  std::fill_n(ignored.begin(), 96, 1);
+  masked[0].ignored = ignored;
   EXPECT_NEAR(mean_psnr_db(run, masked), off, 1e-5);
   const Image8 image = run.image({views[0].camera});
   EXPECT_EQ(image.at(15, 11), glm::u8vec4(0, 51, 51, 255));

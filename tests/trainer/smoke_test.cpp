@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/existing_path.hpp"
+#include "base/platform/scratch_file.hpp"
 #include "examples/photograph.hpp"
 #include "examples/still_life.hpp"
 #include "formats/scene_file.hpp"
@@ -56,7 +57,7 @@ Dataset still_life_before_a_wall() {
   dataset.has_alpha = false;
   for (std::vector<Photograph>* photographs : {&dataset.train, &dataset.test})
     for (Photograph& photograph : *photographs) {
-      ImageF image = composited(to_float(photograph.image), {0.6f, 0.65f, 0.7f});
+      ImageF image = composited(to_float(photograph.image()), {0.6f, 0.65f, 0.7f});
       for (glm::vec4& pixel : image.pixels) pixel.a = 1;
       photograph.image = quantised(image);
     }
@@ -137,13 +138,13 @@ Defects defects(const TrainingState& state, Config config, const Dataset& datase
     const std::vector<float> on_white = backends[1]->render(photograph.camera);
     const std::size_t pixels = on_black.size() / 3;
     const TrainingView target = training_view(photograph, std::array{1.0f, 1.0f, 1.0f});
+    const Image8 alpha = photograph.image();
     ImageF rendered(size, size), truth(size, size);
     for (std::size_t i = 0; i < pixels; ++i)
       for (int c = 0; c < 4; ++c) {
         const std::size_t at = std::size_t(c) * pixels + i;
         rendered.pixels[i][c] = c < 3 ? on_white[at] : 1 - (on_white[i] - on_black[i]);
-        truth.pixels[i][c] =
-            c < 3 ? target.target[at] / 255.0f : photograph.image.pixels[i].a / 255.0f;
+        truth.pixels[i][c] = c < 3 ? target.target[at] / 255.0f : alpha.pixels[i].a / 255.0f;
       }
     const auto mean = [&](const std::vector<float>& map) {
       return std::reduce(map.begin(), map.end(), 0.0) / double(pixels * dataset.test.size());
@@ -213,6 +214,15 @@ TEST(ThoroughSmokeTraining, ABackingLayerLeavesNoHoles) {
   EXPECT_EQ(with.holes, 0);
   EXPECT_GT(without.holes, 5e-3);
   EXPECT_LE(with.specks, 2.5e-2);
+}
+
+TEST(SmokeTraining, IsTheSameFromPhotographsInAFile) {
+  const Config config = smoke_config();
+  TrainingRun in_memory(config, 2, first_state(config)), in_file(config, 2, first_state(config));
+  const auto file = std::make_shared<ScratchFile>();
+  for (TrainingView& view : in_file.views) store(view, file);
+  for (TrainingRun* run : {&in_memory, &in_file}) run->train_until(20);
+  EXPECT_EQ(file_of(in_memory.trainer.state()), file_of(in_file.trainer.state()));
 }
 
 TEST(SmokeTraining, BeginsBetterOnGaussians) {

@@ -12,9 +12,10 @@ Dataset dataset(int width) {
   Dataset data;
   for (int i = 0; i < 2; ++i) {
     Photograph& photograph = data.train.emplace_back();
-    photograph.image = Image8(width, width);
+    Image8 image(width, width);
     for (int y = 0; y < width / 8; ++y)
-      for (int x = 0; x < width; ++x) photograph.image.at(x, y).a = 255;
+      for (int x = 0; x < width; ++x) image.at(x, y).a = 255;
+    photograph.image = std::move(image);
   }
   return data;
 }
@@ -37,8 +38,9 @@ TEST(TextureLevel, HasAFewTexelsForEachPixelOfATriangle) {
 TEST(TextureLevel, LeavesOutIgnoredPixels) {
   Dataset data = dataset(512);
   for (Photograph& photograph : data.train) {
-    photograph.ignored.assign(512 * 512, 0);
-    std::fill_n(photograph.ignored.begin(), 512 * 48, 1);  // three quarters of the covered ones
+    std::vector<std::uint8_t> ignored(512 * 512, 0);
+    std::fill_n(ignored.begin(), 512 * 48, 1);  // three quarters of the covered ones
+    photograph.ignored = std::move(ignored);
   }
   EXPECT_EQ(fitting_level(data, 1 << 10), 3);
 }

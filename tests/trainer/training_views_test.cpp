@@ -4,7 +4,9 @@
 
 #include <array>
 #include <cmath>
+#include <memory>
 
+#include "base/platform/scratch_file.hpp"
 #include "tests/support/random.hpp"
 #include "trainer/diffsoup/config_fields.hpp"
 
@@ -16,11 +18,12 @@ Photograph random_photograph(std::uint64_t seed) {
   Photograph photograph;
   photograph.camera = look_at({3, 0, 1}, {0, 0, 0}, {0, 0, 1}, 0.8, 7, 5);
   photograph.camera.name = "r_" + std::to_string(seed);
-  photograph.image = Image8(7, 5);
+  Image8 image(7, 5);
   const auto byte = [&random] { return static_cast<std::uint8_t>(random.uniform() * 255.99); };
-  for (glm::u8vec4& pixel : photograph.image.pixels) pixel = {byte(), byte(), byte(), byte()};
-  photograph.image.pixels[0].a = 0;
-  photograph.image.pixels[1].a = 255;
+  for (glm::u8vec4& pixel : image.pixels) pixel = {byte(), byte(), byte(), byte()};
+  image.pixels[0].a = 0;
+  image.pixels[1].a = 255;
+  photograph.image = image;
   return photograph;
 }
 
@@ -33,31 +36,59 @@ TEST(TrainingViews, AreThePhotographsOverTheBackgroundPlaneByPlane) {
   const TrainingView view = training_view(photograph, config.background);
   EXPECT_EQ(view.camera.name, "r_1");
   EXPECT_TRUE(view.ignored.empty());
-  const std::size_t pixels = photograph.image.pixels.size();
+  const Image8 image = photograph.image();
+  const std::size_t pixels = image.pixels.size();
   ASSERT_EQ(view.target.size(), 3 * pixels);
   for (std::size_t p = 0; p < pixels; ++p)
     for (int c = 0; c < 3; ++c) {
-      const glm::u8vec4 pixel = photograph.image.pixels[p];
+      const glm::u8vec4 pixel = image.pixels[p];
       const double a = pixel.a / 255.0;
       const double exact = a * pixel[c] + (1 - a) * 255 * double(config.background[c]);
       // The nearest byte, plus rounding for values half way between two.
       EXPECT_NEAR(view.target[std::size_t(c) * pixels + p], exact, 0.5 + 1e-9) << p << " " << c;
     }
   for (std::size_t c = 0; c < 3; ++c) {
-    EXPECT_EQ(view.target[c * pixels + 1], photograph.image.pixels[1][int(c)]);  // opaque
-    EXPECT_EQ(view.target[c * pixels], (std::array{255, 64, 0})[c]);             // transparent
+    EXPECT_EQ(view.target[c * pixels + 1], image.pixels[1][int(c)]);  // opaque
+    EXPECT_EQ(view.target[c * pixels], (std::array{255, 64, 0})[c]);  // transparent
   }
 }
 
 TEST(TrainingViews, IgnoreThePixelsThatAMaskExcludes) {
   std::vector<Photograph> photographs{random_photograph(1), random_photograph(2)};
-  photographs[1].ignored.assign(photographs[1].image.pixels.size(), 0);
-  photographs[1].ignored[8] = 1;
-  const std::vector<std::uint8_t> mask = photographs[1].ignored;
+  std::vector<std::uint8_t> mask(photographs[1].image.pixels(), 0);
+  mask[8] = 1;
+  photographs[1].ignored = mask;
   const std::vector<TrainingView> views = take_training_views(photographs, Config{}.background);
   EXPECT_TRUE(views[0].ignored.empty());
   EXPECT_EQ(views[1].ignored, mask);
   EXPECT_TRUE(photographs[1].ignored.empty());
+}
+
+TEST(TrainingViews, AreTheSameFromAFile) {
+  for (const bool is_opaque : {false, true}) {
+    Photograph photograph = random_photograph(3);
+    Image8 image = photograph.image();
+    for (glm::u8vec4& pixel : image.pixels) pixel.a = is_opaque ? 255 : pixel.a;
+    photograph.image = image;
+    std::vector<std::uint8_t> mask(image.pixels.size(), 0);
+    mask[8] = 1;
+    photograph.ignored = mask;
+    const std::array background{1.0f, 0.25f, 0.0f};
+    const TrainingView expected = training_view(photograph, background);
+    photograph.move_to(std::make_shared<ScratchFile>());
+    std::vector<Photograph> photographs{photograph};
+    const std::vector<TrainingView> views = take_training_views(photographs, background);
+    ASSERT_TRUE(views[0].stored);
+    EXPECT_TRUE(views[0].target.empty());
+    EXPECT_TRUE(has_ignored(views[0]));
+    expect(views[0]);
+    EXPECT_EQ(loaded(views[0]).target, expected.target);
+    EXPECT_EQ(loaded(views[0]).ignored, expected.ignored);
+    TrainingView again = expected;
+    store(again, photograph.file());
+    EXPECT_EQ(loaded(again).target, expected.target);
+    EXPECT_EQ(loaded(again).ignored, expected.ignored);
+  }
 }
 
 TEST(TrainingViews, AreTakenOutOfTheDataset) {
@@ -68,7 +99,7 @@ TEST(TrainingViews, AreTakenOutOfTheDataset) {
   EXPECT_EQ(views[1].target, expected.target);
   EXPECT_EQ(photographs.size(), 2u);
   EXPECT_EQ(photographs[1].camera.name, "r_2");
-  EXPECT_TRUE(photographs[0].image.pixels.empty());
+  EXPECT_EQ(photographs[0].image.pixels(), 0u);
 }
 
 TEST(ScaledTo, ChangesLengthsOfTrainingAndNothingElse) {

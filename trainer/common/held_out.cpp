@@ -12,7 +12,7 @@ namespace {
 
 ImageF truth(const Trainable& run, const Photograph& view) {
   const std::span<const float, 3> color = run.background();
-  return composited(to_float(view.image), {color[0], color[1], color[2]});
+  return composited(to_float(view.image()), {color[0], color[1], color[2]});
 }
 
 ImageF drawn(Trainable& run, const Photograph& view) { return to_float(run.image({view.camera})); }
@@ -27,7 +27,7 @@ double mean_psnr_db(Trainable& run, std::span<const Photograph> views,
     if (progress) progress(double(i) / double(views.size()));
     const ImageF rendering = drawn(run, views[i]);
     ImageF target = truth(run, views[i]);
-    const double counted = equate_ignored(rendering, views[i].ignored, target);
+    const double counted = equate_ignored(rendering, views[i].ignored(), target);
     sum += psnr_from_mse(counted * mean_squared_error(target, rendering));
   }
   return sum / double(views.size());

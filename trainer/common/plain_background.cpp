@@ -27,28 +27,26 @@ void for_each_border_pixel(const Image8& image, const Visit& visit) {
 }  // namespace
 
 std::optional<glm::vec3> plain_background(const Dataset& dataset) {
+  std::vector<glm::u8vec4> border;
+  for (const Photograph& photograph : dataset.train)
+    for_each_border_pixel(photograph.image(),
+                          [&](const glm::u8vec4& pixel) { border.push_back(pixel); });
+  if (border.empty()) return std::nullopt;
   // The median of each channel, by its histogram.
-  std::array<std::array<std::size_t, 256>, 3> counts{};
-  std::size_t pixels = 0;
-  for (const Photograph& photograph : dataset.train)
-    for_each_border_pixel(photograph.image, [&](const glm::u8vec4& pixel) {
-      for (std::size_t c = 0; c < 3; ++c) ++counts[c][pixel[int(c)]];
-      ++pixels;
-    });
-  if (pixels == 0) return std::nullopt;
   std::array<int, 3> median{};
-  for (std::size_t c = 0; c < 3; ++c)
-    for (std::size_t below = 0; 2 * (below += counts[c][std::size_t(median[c])]) < pixels;)
-      ++median[c];
-  std::size_t plain = 0;
-  for (const Photograph& photograph : dataset.train)
-    for_each_border_pixel(photograph.image, [&](const glm::u8vec4& pixel) {
-      bool near = true;
-      for (std::size_t c = 0; c < 3; ++c)
-        near = near && std::abs(int(pixel[int(c)]) - median[c]) <= tolerance;
-      plain += near ? 1 : 0;
-    });
-  if (double(plain) < plain_part * double(pixels)) return std::nullopt;
+  for (int c = 0; c < 3; ++c) {
+    std::array<std::size_t, 256> counts{};
+    for (const glm::u8vec4& pixel : border) ++counts[pixel[c]];
+    int& value = median[std::size_t(c)];
+    for (std::size_t below = 0; 2 * (below += counts[std::size_t(value)]) < border.size();) ++value;
+  }
+  const auto plain = std::ranges::count_if(border, [&](const glm::u8vec4& pixel) {
+    bool near = true;
+    for (int c = 0; c < 3; ++c)
+      near = near && std::abs(int(pixel[c]) - median[std::size_t(c)]) <= tolerance;
+    return near;
+  });
+  if (double(plain) < plain_part * double(border.size())) return std::nullopt;
   return glm::vec3(median[0], median[1], median[2]) / 255.0f;
 }
 

@@ -1,8 +1,10 @@
 // Photographs in the form that a trainer needs: planes of bytes, without alpha.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,13 +19,29 @@ struct TrainingView {
   std::vector<std::uint8_t> target;
   /// One per pixel, 1 for ignored pixels; empty if no pixel is ignored.
   std::vector<std::uint8_t> ignored;
+  /// Pixels in a file, from which loaded() reads the two above.
+  struct Stored {
+    StoredBytes planes, ignored;           // planes: as of StoredImage
+    std::array<float, 3> background = {};  // behind planes with alpha
+  };
+  std::optional<Stored> stored = {};
 };
 
-/// The photograph over a background (red, green, blue in [0, 1]), rounded to the nearest byte.
+/// The view with its pixels in memory. Throws InputError if the file cannot be read.
+TrainingView loaded(const TrainingView& view);
+/// Whether the view, in memory or stored, has ignored pixels.
+bool has_ignored(const TrainingView& view);
+/// Moves the pixels to the file.
+void store(TrainingView& view, const std::shared_ptr<ScratchFile>& file);
+/// Lets the system read the pixels of a stored view ahead.
+void expect(const TrainingView& view);
+
+/// The photograph over a background (red, green, blue in [0, 1]), rounded to the nearest byte, in
+/// memory.
 TrainingView training_view(const Photograph& photograph, std::span<const float, 3> background);
 
-/// All photographs, in their order. Clears the images and masks in `photographs` and keeps the
-/// cameras, so no image is in memory twice.
+/// All photographs, in their order; stored, where the photograph is. Clears the images and masks in
+/// `photographs` and keeps the cameras, so no image is in memory twice.
 std::vector<TrainingView> take_training_views(std::vector<Photograph>& photographs,
                                               std::span<const float, 3> background);
 

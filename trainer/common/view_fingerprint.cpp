@@ -21,12 +21,14 @@ std::vector<ViewFingerprint> fingerprint(std::span<const Photograph> photographs
     const Camera& camera = photograph.camera;
     const std::array intrinsics{camera.fx, camera.fy, camera.cx, camera.cy};
     const std::uint32_t sum = checksum(0, std::as_bytes(std::span(intrinsics)));
-    const std::uint32_t pixels = checksum(0, std::as_bytes(std::span(photograph.image.pixels)));
+    const Image8 image = photograph.image();
+    const std::vector<std::uint8_t> ignored = photograph.ignored();
+    const std::uint32_t pixels = checksum(0, std::as_bytes(std::span(image.pixels)));
     views.push_back({.name = camera.name,
                      .width = camera.width,
                      .height = camera.height,
                      .camera = checksum(sum, std::as_bytes(std::span(&camera.view_from_world, 1))),
-                     .pixels = checksum(pixels, std::as_bytes(std::span(photograph.ignored)))});
+                     .pixels = checksum(pixels, std::as_bytes(std::span(ignored)))});
   }
   return views;
 }

@@ -17,9 +17,10 @@ constexpr int lowest = 3;
 
 double covered_pixels(const Photograph& photograph) {
   double covered = 0;
-  for (std::size_t i = 0; i < photograph.image.pixels.size(); ++i)
-    covered += photograph.image.pixels[i].a >= 128 &&
-               (photograph.ignored.empty() || photograph.ignored[i] == 0);
+  const Image8 image = photograph.image();
+  const std::vector<std::uint8_t> ignored = photograph.ignored();
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+    covered += image.pixels[i].a >= 128 && (ignored.empty() || ignored[i] == 0);
   return covered;
 }
 

@@ -140,6 +140,8 @@ StepReport Trainer::step() {
                       .vertex = float(config_.vertex_rate * decay)});
   if (!is_lifted_ && step_ >= lift_step()) lift();
   if (resamples_now()) resample();
+  for (const std::uint32_t next : batch_of(step_ + 1, config_.batch, views_.size(), config_.seed))
+    expect(views_[next]);
   return report;
 }
 

@@ -22,13 +22,6 @@ constexpr double program_bytes = 64.0 * (1 << 20);
 
 constexpr std::uint64_t min_splats = 1000;
 
-std::uint64_t pixels_of(const std::vector<Photograph>& photographs) {
-  std::uint64_t pixels = 0;
-  for (const Photograph& view : photographs)
-    pixels += std::uint64_t(view.camera.width) * std::uint64_t(view.camera.height);
-  return pixels;
-}
-
 template <class Config>
 double bytes_a_splat(const Config& config) {
   return with_training(config, [&]<class Training>() {
@@ -44,28 +37,31 @@ double bytes_a_splat(const Config& config) {
   });
 }
 
-double bytes_without_splats(const Dataset& dataset) {
-  std::uint64_t largest = 0;
-  for (const Photograph& view : dataset.train)
-    largest =
-        std::max(largest, std::uint64_t(view.camera.width) * std::uint64_t(view.camera.height));
-  // Photographs have four bytes a pixel while they are read.
-  return program_bytes + 4.0 * double(pixels_of(dataset.train) + pixels_of(dataset.test)) +
-         planes_a_pixel * sizeof(float) * double(largest);
+double bytes_without_splats(const Dataset& dataset, PhotographPlace place) {
+  std::uint64_t largest = 0, photographs = 0;
+  for (const auto* views : {&dataset.train, &dataset.test})
+    for (const Photograph& view : *views) {
+      const std::uint64_t pixels =
+          std::uint64_t(view.camera.width) * std::uint64_t(view.camera.height);
+      // Photographs have four bytes a pixel while they are read.
+      if (place == PhotographPlace::as_now && !view.file()) photographs += 4 * pixels;
+      if (views == &dataset.train) largest = std::max(largest, pixels);
+    }
+  return program_bytes + double(photographs) + planes_a_pixel * sizeof(float) * double(largest);
 }
 
 }  // namespace
 
 template <class Config>
-std::uint64_t splat_memory(const Config& config, const Dataset& dataset) {
-  return std::uint64_t(bytes_without_splats(dataset) +
+std::uint64_t splat_memory(const Config& config, const Dataset& dataset, PhotographPlace place) {
+  return std::uint64_t(bytes_without_splats(dataset, place) +
                        bytes_a_splat(config) * double(config.max_splats));
 }
 
 template <class Config>
 std::optional<std::uint64_t> max_splats_within(std::uint64_t bytes, const Config& config,
-                                               const Dataset& dataset) {
-  const double left = double(bytes) - bytes_without_splats(dataset);
+                                               const Dataset& dataset, PhotographPlace place) {
+  const double left = double(bytes) - bytes_without_splats(dataset, place);
   const double fitting = std::floor(left / bytes_a_splat(config));
   if (!(fitting >= double(std::min(min_splats, config.max_splats)))) return std::nullopt;
   return std::min(config.max_splats, std::uint64_t(fitting));
@@ -99,14 +95,14 @@ int fitted_steps(const SplatConfig& config, int done, double seconds, double ste
   return int(std::clamp(std::round(steps), double(done) + 1, 1e7));
 }
 
-template std::uint64_t splat_memory(const GaussianConfig&, const Dataset&);
-template std::uint64_t splat_memory(const NeuralConfig&, const Dataset&);
-template std::uint64_t splat_memory(const WindowConfig&, const Dataset&);
+template std::uint64_t splat_memory(const GaussianConfig&, const Dataset&, PhotographPlace);
+template std::uint64_t splat_memory(const NeuralConfig&, const Dataset&, PhotographPlace);
+template std::uint64_t splat_memory(const WindowConfig&, const Dataset&, PhotographPlace);
 template std::optional<std::uint64_t> max_splats_within(std::uint64_t, const GaussianConfig&,
-                                                        const Dataset&);
+                                                        const Dataset&, PhotographPlace);
 template std::optional<std::uint64_t> max_splats_within(std::uint64_t, const NeuralConfig&,
-                                                        const Dataset&);
+                                                        const Dataset&, PhotographPlace);
 template std::optional<std::uint64_t> max_splats_within(std::uint64_t, const WindowConfig&,
-                                                        const Dataset&);
+                                                        const Dataset&, PhotographPlace);
 
 }  // namespace tureen::trainer

@@ -12,17 +12,22 @@ namespace tureen::trainer {
 
 // Config is GaussianConfig, NeuralConfig or WindowConfig.
 
+/// Where a forecast assumes the photographs: where they are, or all in a file.
+enum class PhotographPlace { as_now, in_file };
+
 /// Bytes that a run needs at its largest: the program, photographs, parameters with their moments
 /// (twice, while their number grows), lists of tiles, and planes of images. An estimate: lists
 /// depend on the sizes of splats.
 template <class Config>
-std::uint64_t splat_memory(const Config& config, const Dataset& dataset);
+std::uint64_t splat_memory(const Config& config, const Dataset& dataset,
+                           PhotographPlace place = PhotographPlace::as_now);
 
 /// The largest max_splats, at most config.max_splats, with which splat_memory() is at most
 /// `bytes`; nullopt if not even 1,000 splats fit.
 template <class Config>
 std::optional<std::uint64_t> max_splats_within(std::uint64_t bytes, const Config& config,
-                                               const Dataset& dataset);
+                                               const Dataset& dataset,
+                                               PhotographPlace place = PhotographPlace::as_now);
 
 /// The work of a step on images with half the width and height, relative to one of full size: a
 /// quarter of the pixels, but all splats. An estimate; tests/bench/splat_steps.cpp prints the times

@@ -170,11 +170,16 @@ class SplatTrainer {
     if (epoch.empty()) epoch = draw(state_.random, views_.size(), views_.size());
     const bool half = state_.step < config_.half_size_until * config_.steps;
     if (half && half_views_.empty())
-      for (const TrainingView& each : views_) half_views_.push_back(halved(each));
+      for (const TrainingView& each : views_)
+        half_views_.push_back(each.stored ? each : halved(each));
     if (!half) half_views_ = {};
     const TrainingView& view = half ? half_views_[epoch.back()] : views_[epoch.back()];
     epoch.pop_back();
-    return view;
+    if (!view.stored) return view;
+    read_view_ = loaded(view);
+    if (half) read_view_ = halved(read_view_);
+    if (!epoch.empty()) expect(views_[epoch.back()]);
+    return read_view_;
   }
 
   /// With Config::jitter, the rays of the step pass through a random point of each pixel, the same
@@ -213,7 +218,9 @@ class SplatTrainer {
   Config config_;
   std::span<const TrainingView> views_;
   std::vector<TrainingView> half_views_;
-  Region region_;  // its half side is the unit of rates and scales
+  TrainingView read_view_ = {
+      .camera = {}, .target = {}, .ignored = {}};  // of this step, if it is stored
+  Region region_;                                  // its half side is the unit of rates and scales
   ThreadPool pool_;
   TileRaster<Training> raster_;
   State state_;

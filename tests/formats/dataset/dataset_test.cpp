@@ -9,6 +9,7 @@
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "base/memory_budget.hpp"
 #include "formats/dataset/dataset_remarks.hpp"
 #include "image/box_scale.hpp"
 #include "tests/formats/dataset/dataset_fixture.hpp"
@@ -69,6 +70,44 @@ std::optional<Refusal> refusal(const std::filesystem::path& path, DatasetOptions
   return error_of([&] { read_dataset(path, options); });
 }
 
+// ---- Memory -----------------------------------------------------------------------------------
+
+struct SmallMemory {
+  explicit SmallMemory(std::uint64_t bytes) { set_max_memory(bytes); }
+  ~SmallMemory() { set_max_memory(default_max_memory); }
+};
+
+TEST(Dataset, HoldsPhotographsBeyondHalfOfTheMemoryInAFile) {
+  const TemporaryFolder folder;
+  std::vector<std::string> frames;
+  for (int i = 0; i < 9; ++i) {
+    Image8 image = an_image(640, 480, i);
+    if (i < 8)  // the last one has no transparent pixels
+      for (int x = 0; x < 640; ++x) image.at(x, 7).a = 0;
+    frames.push_back(frame("images/" + std::to_string(i) + ".png", i));
+    write_image(folder / ("images/" + std::to_string(i) + ".png"), image);
+  }
+  for (const char* size : {"", "\"w\": 640, \"h\": 480, "}) {
+    write_text(folder / "transforms.json", transforms(intrinsics + std::string(size), frames));
+    for (const AlphaMeaning meaning : {AlphaMeaning::mask, AlphaMeaning::background}) {
+      const Dataset whole = read_dataset(folder / "", {.alpha = meaning});
+      // Half of it holds three of these photographs.
+      const SmallMemory limit(8 << 20);
+      const Dataset small = read_dataset(folder / "", {.alpha = meaning});
+      std::size_t in_file = 0;
+      for (const auto part : {&Dataset::train, &Dataset::test})
+        for (std::size_t i = 0; i < (whole.*part).size(); ++i) {
+          const Photograph &expected = (whole.*part)[i], &found = (small.*part)[i];
+          EXPECT_EQ(expected.file(), nullptr);
+          in_file += found.file() != nullptr;
+          EXPECT_EQ(found.image().pixels, expected.image().pixels);
+          EXPECT_EQ(found.ignored(), expected.ignored());
+        }
+      EXPECT_EQ(in_file, 6u);
+    }
+  }
+}
+
 // ---- Reading --------------------------------------------------------------------------------
 
 TEST(Dataset, ReadsTransformsInNameOrderWithEveryEighthForTesting) {
@@ -80,7 +119,7 @@ TEST(Dataset, ReadsTransformsInNameOrderWithEveryEighthForTesting) {
               ElementsAre("images/1.png", "images/2.png", "images/3.png", "images/4.png",
                           "images/5.png", "images/6.png", "images/7.png", "images/9.png"));
   const Photograph& third = dataset.train[2];
-  EXPECT_EQ(third.image.pixels, an_image(8, 6, 3).pixels);
+  EXPECT_EQ(third.image().pixels, an_image(8, 6, 3).pixels);
   EXPECT_EQ(third.camera.width, 8);
   EXPECT_EQ(third.camera.height, 6);
   EXPECT_EQ(third.camera.fx, 10);
@@ -115,7 +154,7 @@ TEST(Dataset, ReadsAFileASplitWithoutExtensionsOrSizes) {
   EXPECT_THAT(names(dataset.train), ElementsAre("./train/r_0", "./train/r_10", "./train/r_2"));
   EXPECT_THAT(names(dataset.test), ElementsAre("./test/r_0"));
   EXPECT_TRUE(dataset.has_alpha);
-  EXPECT_EQ(dataset.test[0].image.pixels, transparent.pixels);  // straight alpha, unchanged
+  EXPECT_EQ(dataset.test[0].image().pixels, transparent.pixels);  // straight alpha, unchanged
   const Camera &train = dataset.train[0].camera, &test = dataset.test[0].camera;
   EXPECT_NEAR(train.fx, 4, 1e-12);
   EXPECT_NEAR(test.fx, 5, 1e-12);
@@ -153,7 +192,7 @@ TEST(Dataset, AFrameHasItsOwnIntrinsicsAndSize) {
   EXPECT_EQ(dataset.test[0].camera.fx, 10);
   EXPECT_EQ(dataset.train[0].camera.fx, 20);
   EXPECT_EQ(dataset.train[0].camera.fy, 9);
-  EXPECT_EQ(dataset.train[0].image.height, 7);
+  EXPECT_EQ(dataset.train[0].image().height, 7);
 }
 
 TEST(Dataset, AFrameHasItsOwnLens) {
@@ -183,7 +222,7 @@ TEST(Dataset, ReadsColmap) {
   EXPECT_EQ(dataset.train.size(), 7u);
   const Photograph& b = dataset.train[0];
   EXPECT_EQ(b.camera.name, "b.png");
-  EXPECT_EQ(b.image.pixels, an_image(8, 6, 1).pixels);
+  EXPECT_EQ(b.image().pixels, an_image(8, 6, 1).pixels);
   EXPECT_EQ(b.camera.cx, 4.5);
   EXPECT_EQ(b.camera.cy, 2.5);
   EXPECT_LT(glm::length(b.camera.eye() - glm::dvec3(-0.25, -0.5, -3)), 1e-12);
@@ -234,7 +273,7 @@ TEST(Dataset, IntrinsicsFollowTheScaleExactly) {
   EXPECT_EQ(half.camera.fy, 4.5);
   EXPECT_EQ(half.camera.cx, 2.25);  // relative to the corner, which does not move
   EXPECT_EQ(half.camera.cy, 1.25);
-  EXPECT_EQ(half.image.pixels, box_scaled(an_image(8, 6, 1), 4, 3).pixels);
+  EXPECT_EQ(half.image().pixels, box_scaled(an_image(8, 6, 1), 4, 3).pixels);
   // 8 x 0.3 = 2.4 and 6 x 0.3 = 1.8 are rounded; the camera uses the rounded sizes.
   const Camera odd = read_dataset(folder / "", {.scale = 0.3}).train[0].camera;
   EXPECT_EQ(odd.width, 2);
@@ -253,13 +292,13 @@ TEST(Dataset, ReadsSmallerImagesFromTheirFolder) {
   EXPECT_EQ(dataset.test[0].camera.fx, 2.5);
   EXPECT_NEAR(dataset.test[0].camera.fy, 9.0 / 6, 1e-15);
   EXPECT_NEAR(dataset.train[0].camera.fy, 18.0 / 6, 1e-15);
-  EXPECT_EQ(dataset.train[0].image.pixels, an_image(2, 2, 5).pixels);
+  EXPECT_EQ(dataset.train[0].image().pixels, an_image(2, 2, 5).pixels);
 
   write_transforms(folder, 2);
   write_image(folder / "images_2/0.png", an_image(4, 3));
   write_image(folder / "images_2/1.png", an_image(4, 3, 9));
   const Photograph photograph = read_dataset(folder / "", {.images_folder = 2}).train[0];
-  EXPECT_EQ(photograph.image.pixels, an_image(4, 3, 9).pixels);
+  EXPECT_EQ(photograph.image().pixels, an_image(4, 3, 9).pixels);
   EXPECT_EQ(photograph.camera.fx, 5);
   EXPECT_EQ(photograph.camera.cx, 2.25);
   write_image(folder / "images_2/1.png", an_image(5, 3));
@@ -278,7 +317,7 @@ TEST(Dataset, WithoutDistortedBordersEveryPixelIsEvidence) {
   EXPECT_FALSE(whole.has_alpha);
   EXPECT_THAT(whole.remarks,
               ::testing::Contains(::testing::Field(&Remark::kind, &remarks::lens_undone_cropped)));
-  for (const glm::u8vec4& pixel : photograph.image.pixels)
+  for (const glm::u8vec4& pixel : photograph.image().pixels)
     ASSERT_EQ(pixel, glm::u8vec4(200, 100, 50, 255));
   // At the left edge, 38 pixels from the axis, r^2 = 0.295: 3 % or 1.1 pixels are missing. At the
   // right edge, r^2 = 0.36 gives 1.5 pixels; at the corners it is slightly more.
@@ -289,13 +328,13 @@ TEST(Dataset, WithoutDistortedBordersEveryPixelIsEvidence) {
   EXPECT_LE(left, 4);
   EXPECT_LE(photograph.camera.width, 76);
   EXPECT_GE(photograph.camera.width, 71);
-  EXPECT_EQ(photograph.camera.width, photograph.image.width);
-  EXPECT_EQ(photograph.camera.height, photograph.image.height);
+  EXPECT_EQ(photograph.camera.width, photograph.image().width);
+  EXPECT_EQ(photograph.camera.height, photograph.image().height);
 
   const Photograph half = read_dataset(folder / "", {.scale = 0.5}).train[0];
   EXPECT_EQ(half.camera.fx, 35);
   EXPECT_EQ(19 - half.camera.cx, std::ceil(left / 2));
-  for (const glm::u8vec4& pixel : half.image.pixels)
+  for (const glm::u8vec4& pixel : half.image().pixels)
     ASSERT_EQ(pixel, glm::u8vec4(200, 100, 50, 255));
 }
 
@@ -318,7 +357,7 @@ TEST(Dataset, FisheyesBecomePinholes) {
     ASSERT_EQ(pinhole.camera.width, 80);
     for (const int x : {5, 20, 40, 60, 75}) {
       const double angle = std::atan((x + 0.5 - 40) / pinhole.camera.fx);
-      EXPECT_NEAR(pinhole.image.at(x, 30).r, 128 + angle * focal * 2, 1.0) << x;
+      EXPECT_NEAR(pinhole.image().at(x, 30).r, 128 + angle * focal * 2, 1.0) << x;
     }
     const double degrees = glm::degrees(2 * std::atan(40 / focal));
     ASSERT_EQ(dataset.remarks.size(), 3u);
@@ -430,15 +469,15 @@ TEST(Dataset, MasksExcludePixels) {
   Dataset dataset = read_dataset(folder / "");
   EXPECT_TRUE(dataset.test[0].ignored.empty());
   ASSERT_EQ(dataset.train[0].ignored.size(), 48u);
-  for (std::size_t i = 0; i < 48; ++i) EXPECT_EQ(dataset.train[0].ignored[i], i % 8 == 3) << i;
+  for (std::size_t i = 0; i < 48; ++i) EXPECT_EQ(dataset.train[0].ignored()[i], i % 8 == 3) << i;
   EXPECT_FALSE(dataset.has_alpha);
-  EXPECT_EQ(dataset.train[0].image.pixels, an_image(8, 6, 1).pixels);
+  EXPECT_EQ(dataset.train[0].image().pixels, an_image(8, 6, 1).pixels);
   EXPECT_THAT(dataset.remarks,
               ::testing::Contains(Remark{&remarks::pixels_masked, {{"masked", 1}, {"all", 2}}}));
   // Half the size: the second column of four has an excluded pixel.
   dataset = read_dataset(folder / "", {.scale = 0.5});
   ASSERT_EQ(dataset.train[0].ignored.size(), 12u);
-  for (std::size_t i = 0; i < 12; ++i) EXPECT_EQ(dataset.train[0].ignored[i], i % 4 == 1) << i;
+  for (std::size_t i = 0; i < 12; ++i) EXPECT_EQ(dataset.train[0].ignored()[i], i % 4 == 1) << i;
   write("");
   write_image(folder / "images_2/0.png", an_image(4, 3));
   write_image(folder / "images_2/1.png", an_image(4, 3));
@@ -477,15 +516,17 @@ TEST(Dataset, NoPixelThatIsUsedDependsOnAnExcludedOne) {
         SCOPED_TRACE(lens + std::to_string(scale));
         const Photograph black = masked_pixel(lens, scale, at, 0);
         const Photograph white = masked_pixel(lens, scale, at, 255);
-        ASSERT_EQ(black.ignored.size(), black.image.pixels.size());
+        const Image8 black_image = black.image(), white_image = white.image();
+        const std::vector<std::uint8_t> mask = black.ignored();
+        ASSERT_EQ(mask.size(), black_image.pixels.size());
         std::size_t differ = 0;
-        for (std::size_t i = 0; i < black.ignored.size(); ++i) {
-          const bool differs = black.image.pixels[i] != white.image.pixels[i];
-          EXPECT_TRUE(black.ignored[i] == 1 || !differs) << i;
+        for (std::size_t i = 0; i < mask.size(); ++i) {
+          const bool differs = black_image.pixels[i] != white_image.pixels[i];
+          EXPECT_TRUE(mask[i] == 1 || !differs) << i;
           differ += differs;
         }
         // The others that are ignored have small weights.
-        const auto ignored = std::count(black.ignored.begin(), black.ignored.end(), 1);
+        const auto ignored = std::count(mask.begin(), mask.end(), 1);
         EXPECT_GE(ignored, 1);
         EXPECT_LE(ignored, 36);
         EXPECT_TRUE(differ >= 1 || scale < 0.1);
@@ -637,7 +678,7 @@ TEST(Dataset, FollowsParentsAndLinksToPhotographs) {
     EXPECT_EQ(with(name), std::nullopt);
     const Dataset dataset = read_dataset(folder / "set");
     EXPECT_THAT(names({dataset.test[0], dataset.train[0]}), ::testing::Contains(name));
-    EXPECT_THAT((std::array{dataset.test[0].image.pixels, dataset.train[0].image.pixels}),
+    EXPECT_THAT((std::array{dataset.test[0].image().pixels, dataset.train[0].image().pixels}),
                 ::testing::Contains(an_image(8, 6, 2).pixels));
   }
   EXPECT_THAT(with("images/broken.png"), Names("images/broken.png"));
@@ -658,7 +699,7 @@ TEST(Dataset, ReadsColmapWithLinksAsNerfstudioMakesIt) {
   write_image(folder / "apart/b.png", an_image(8, 6, 1));
   std::filesystem::create_directory_symlink(folder / "apart", folder / "set/images");
   const Dataset dataset = read_dataset(folder / "set");
-  EXPECT_EQ(dataset.train[0].image.pixels, an_image(8, 6, 1).pixels);
+  EXPECT_EQ(dataset.train[0].image().pixels, an_image(8, 6, 1).pixels);
   EXPECT_EQ(dataset.points.size(), 1u);
 }
 
@@ -726,18 +767,20 @@ TEST(DatasetData, BottleHasPointsInFrontOfItsCameras) {
   // other points.
   double own = 0, others = 0;
   std::size_t inside = 0;
-  for (const Photograph& photograph : dataset.test)
+  for (const Photograph& photograph : dataset.test) {
+    const Image8 image = photograph.image();
     for (std::size_t i = 0; i < dataset.points.size(); ++i) {
       const Camera& camera = photograph.camera;
       const glm::dvec4 p = camera.view_from_world * glm::dvec4(dataset.points[i].position, 1);
       const double x = camera.cx + camera.fx * p.x / -p.z, y = camera.cy - camera.fy * p.y / -p.z;
       if (!(p.z < 0 && x >= 0 && y >= 0 && x < camera.width && y < camera.height)) continue;
-      const glm::dvec3 color(photograph.image.at(int(x), int(y)));
+      const glm::dvec3 color(image.at(int(x), int(y)));
       const DatasetPoint& other = dataset.points[(i + 3000) % dataset.points.size()];
       own += glm::length(color - glm::dvec3(dataset.points[i].color));
       others += glm::length(color - glm::dvec3(other.color));
       ++inside;
     }
+  }
   EXPECT_GT(double(inside), 0.5 * 13 * 6885);
   // 0.55 here; 0.97 if x or y has the wrong sign.
   EXPECT_LT(own, 0.7 * others);

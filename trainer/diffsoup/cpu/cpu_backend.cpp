@@ -53,8 +53,9 @@ class CpuBackend final : public Backend {
   void shade(std::span<BatchImage> images);
   void shade_backward(std::span<const std::uint32_t> views, StepReport& report);
   void step_faces(const Rates& rates, StepReport& report);
-  void take_loss(std::span<const std::uint32_t> views, StepReport& report);
-  AdvantageInput advantage_input(const BatchImage& image, std::uint32_t view);
+  void find_views(std::span<const std::uint32_t> views);
+  void take_loss(StepReport& report);
+  AdvantageInput advantage_input(std::size_t image, std::uint32_t view);
   void step_network(float rate, StepReport& report);
   ShadingInput shading_input() const {
     return {store_.values.data(), state_.model.max_level, &state_.model.mlp, config_.background};
@@ -67,7 +68,9 @@ class CpuBackend final : public Backend {
   std::unique_ptr<Pyramid> pyramid_;
   TextureStore store_;
   std::vector<BatchImage> images_;
-  std::vector<std::size_t> first_pixel_;  // of each view in the baseline
+  std::vector<TrainingView> read_views_;          // of this step, where they are stored
+  std::vector<const TrainingView*> batch_views_;  // with pixels, one for each of images_
+  std::vector<std::size_t> first_pixel_;          // of each view in the baseline
   std::vector<MlpParameters> mlp_gradients_;
   ImageLossScratch<float> loss_scratch_;
   StageTimes times_;
@@ -143,6 +146,16 @@ void CpuBackend::shade(std::span<BatchImage> images) {
   });
 }
 
+void CpuBackend::find_views(std::span<const std::uint32_t> views) {
+  read_views_.resize(views.size(), {.camera = {}, .target = {}, .ignored = {}});
+  batch_views_.resize(views.size());
+  pool_.run(views.size(), [&](std::size_t i) {
+    const TrainingView& view = views_[views[i]];
+    if (view.stored) read_views_[i] = loaded(view);
+    batch_views_[i] = view.stored ? &read_views_[i] : &view;
+  });
+}
+
 StepReport CpuBackend::step(std::span<const std::uint32_t> views, const Rates& rates) {
   StepReport report;
   const auto step_number = std::uint32_t(state_.step + 1);
@@ -155,9 +168,10 @@ StepReport CpuBackend::step(std::span<const std::uint32_t> views, const Rates& r
     image.loss.resize(image.pixels());
     image.features.resize(image.pixels());
   }
+  find_views(views);
   find_visible_faces(images_, Masking::stochastic);
   shade(images_);
-  take_loss(views, report);
+  take_loss(report);
   shade_backward(views, report);
   step_faces(rates, report);
   step_network(rates.mlp, report);
@@ -167,13 +181,13 @@ StepReport CpuBackend::step(std::span<const std::uint32_t> views, const Rates& r
   return report;
 }
 
-AdvantageInput CpuBackend::advantage_input(const BatchImage& image, std::uint32_t view) {
-  return {
-      .view = &views_[view],
-      // A pixel's share of the batch's mean.
-      .scale = config_.opacity_l1_weight / (float(images_.size()) * 3.0f * float(image.pixels())),
-      .baseline_rate = config_.baseline_rate,
-      .baseline = config_.baseline ? &state_.baseline[first_pixel_[view]] : nullptr};
+AdvantageInput CpuBackend::advantage_input(std::size_t image, std::uint32_t view) {
+  return {.view = batch_views_[image],
+          // A pixel's share of the batch's mean.
+          .scale = config_.opacity_l1_weight /
+                   (float(images_.size()) * 3.0f * float(images_[image].pixels())),
+          .baseline_rate = config_.baseline_rate,
+          .baseline = config_.baseline ? &state_.baseline[first_pixel_[view]] : nullptr};
 }
 
 void CpuBackend::shade_backward(std::span<const std::uint32_t> views, StepReport& report) {
@@ -192,7 +206,7 @@ void CpuBackend::shade_backward(std::span<const std::uint32_t> views, StepReport
     for (int x = 0; x < image.tiles_x; ++x)
       find_corner_gradients(image, std::size_t(band.y0 / tile_side) * image.tiles_x + x,
                             config_.texture_slide);
-    const AdvantageInput advantage = advantage_input(image, views[band.image]);
+    const AdvantageInput advantage = advantage_input(band.image, views[band.image]);
     reports[task] = take_advantage(image, advantage, band.y0, band.y1);
     for (int x = 0; x < image.tiles_x; ++x)
       collect_fragments(image, std::size_t(band.y0 / tile_side) * image.tiles_x + x);
@@ -234,13 +248,13 @@ void CpuBackend::step_faces(const Rates& rates, StepReport& report) {
   for (const unsigned count : quarantined) report.non_finite += count;
 }
 
-void CpuBackend::take_loss(std::span<const std::uint32_t> views, StepReport& report) {
+void CpuBackend::take_loss(StepReport& report) {
   const Stopwatch stopwatch(times_.loss);
-  const float share = 1.0f / float(views.size());
+  const float share = 1.0f / float(images_.size());
   std::vector<ImageLossView<float>> inputs;
-  for (std::size_t i = 0; i < views.size(); ++i) {
+  for (std::size_t i = 0; i < images_.size(); ++i) {
     BatchImage& image = images_[i];
-    const TrainingView& view = views_[views[i]];
+    const TrainingView& view = *batch_views_[i];
     inputs.push_back({.width = image.view.width,
                       .height = image.view.height,
                       .rendered = image.color,
@@ -251,7 +265,7 @@ void CpuBackend::take_loss(std::span<const std::uint32_t> views, StepReport& rep
                       .gradient = image.by_color,
                       .pixel_loss = image.loss});
   }
-  std::vector<ImageLoss> losses(views.size());
+  std::vector<ImageLoss> losses(images_.size());
   image_losses<float>(inputs, losses, loss_scratch_, pool_);
   for (const ImageLoss& loss : losses) {
     report.loss += loss.loss;

@@ -161,15 +161,16 @@ KernelBackend<Machine>::KernelBackend(std::span<const TrainingView> views, const
   for (const TrainingView& view : views) {
     first_pixel_.push_back(first_pixel_.back() +
                            std::size_t(view.camera.width) * std::size_t(view.camera.height));
-    any_ignored |= !view.ignored.empty();
+    any_ignored |= has_ignored(view);
   }
   fragments_.resize(1);
   fragments_.clear();
   targets_.resize(3 * first_pixel_.back());
   if (any_ignored) ignored_.resize(first_pixel_.back());
   for (std::size_t i = 0; i < views.size(); ++i) {
-    targets_.upload(views[i].target.data(), 3 * first_pixel_[i], views[i].target.size());
-    ignored_.upload(views[i].ignored.data(), first_pixel_[i], views[i].ignored.size());
+    const TrainingView view = loaded(views[i]);
+    targets_.upload(view.target.data(), 3 * first_pixel_[i], view.target.size());
+    ignored_.upload(view.ignored.data(), first_pixel_[i], view.ignored.size());
   }
 }
 
@@ -337,7 +338,7 @@ StepReport KernelBackend<Machine>::step(std::span<const std::uint32_t> views, co
     DeviceImage& image = images.emplace_back(image_of(views_[view].camera));
     image.draw_key = kernels::draw_key(config_.seed, step_number, view);
     image.target = targets_.data() + 3 * first_pixel_[view];
-    if (!views_[view].ignored.empty()) image.ignored = ignored_.data() + first_pixel_[view];
+    if (has_ignored(views_[view])) image.ignored = ignored_.data() + first_pixel_[view];
     if (config_.baseline) image.baseline = baseline_.data() + first_pixel_[view];
   }
   set_images(std::move(images));

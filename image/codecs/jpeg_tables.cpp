@@ -1,4 +1,4 @@
-#include "image/jpeg_tables.hpp"
+#include "image/codecs/jpeg_tables.hpp"
 
 namespace tureen {
 
