@@ -117,7 +117,8 @@ export interface LoadMessage {
   readonly maxSplats: number | null;
   /** Turns the scene upright, so that its up axis becomes this. */
   readonly up: Vec3 | null;
-  /** The worker's program: the one with all formats; or another that such a program helps. */
+  /** The worker's program: the one with all formats (further); the page's own, which then leaves unknown files to that one
+   *  (first); or the page's own, if there is no other (only). */
   readonly program: 'further' | 'first' | 'only';
 }
 

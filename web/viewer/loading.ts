@@ -56,6 +56,8 @@ export class Loading {
   private worker: Worker | null = null;
   private readonly unheard: FromLoader[] = [];
   private readonly ending = new AbortController();
+  /** Begins again in the program with all formats. */
+  private restart: () => void = () => {};
 
   /** `limits`: limits of the device; preparing waits for them. `memory`, `maxSplats`: as in LoadMessage. `role` decides
    *  which events run() needs. */
@@ -67,8 +69,6 @@ export class Loading {
     limits.catch(() => {});  // begin() awaits it later, after the worker
     this.begin(assets, program, limits, source).catch((error: unknown) => this.end(error));
   }
-
-  private restart: () => void = () => {};
 
   /** Resolves when the scene is shown. Rejects with ViewerError. Call it only once. */
   run(events: LoadingEvents | AddingEvents): Promise<void> {
