@@ -7,8 +7,8 @@
 
 #include "jobs/timing/benchmark.hpp"
 #include "jobs/tradeoff/measurer.hpp"
-#include "jobs/tradeoff/splat_weights.hpp"
 #include "jobs/tradeoff/study_images.hpp"
+#include "jobs/visibility/splat_use.hpp"
 #include "jobs/visibility/visibility_count.hpp"
 #include "splatting/layer.hpp"
 
@@ -72,9 +72,9 @@ std::vector<QualitySetting> settings_of(const StudyScene& scene, const StudyOpti
     const auto& splats = std::get<Splats>(layer.primitives);
     std::vector<std::uint64_t> weights;
     if (splatting::has_layer_for(splats))
-      weights = splat_weights(splats, layer.world_from_layer, scene.counting, [&](double fraction) {
-        report(options, StudyStage::visibility, fraction);
-      });
+      weights = splat_use(splats, layer.world_from_layer, scene.counting, [&](double fraction) {
+                  report(options, StudyStage::visibility, fraction);
+                }).weights;
     return drawing_settings(splats, weights);
   }
   const std::vector<std::uint64_t> visible = count_visible_pixels(

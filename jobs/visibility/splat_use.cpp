@@ -1,17 +1,15 @@
-#include "jobs/tradeoff/splat_weights.hpp"
+#include "jobs/visibility/splat_use.hpp"
 
 #include <cmath>
 #include <numeric>
 
 #include "runtime/passes/pass.hpp"
 #include "scene/clip_range.hpp"
-#include "splatting/tiles/tile_renderer.hpp"
 
-namespace tureen::tradeoff {
+namespace tureen {
 
-std::vector<std::uint64_t> splat_weights(const Splats& splats, const glm::dmat4& world_from_layer,
-                                         std::span<const Camera> views,
-                                         const std::function<void(double)>& progress) {
+SplatUse splat_use(const Splats& splats, const glm::dmat4& world_from_layer,
+                   std::span<const Camera> views, const std::function<void(double)>& progress) {
   std::vector<std::uint32_t> all(count(splats));
   std::iota(all.begin(), all.end(), 0u);
   const std::vector<std::uint32_t> drawn = splatting::without_nan(splats, all);
@@ -19,21 +17,23 @@ std::vector<std::uint64_t> splat_weights(const Splats& splats, const glm::dmat4&
       splatting::layer_data(splats, splats.profile, drawn, splats.color.degree));
   splatting::TileRenderer renderer({});
   std::vector<double> weights(drawn.size());
+  SplatUse use;
   const LayerPlace placed{bounds(splats), world_from_layer};
   for (std::size_t i = 0; i < views.size(); ++i) {
     const ClipRange range = clip_range({&placed, 1}, views[i], DepthStorage::reversed_float);
     const FrameCamera camera = camera_in_layer(views[i], world_from_layer, range);
-    renderer.add_weights({layer.get(),
-                          splatting::image_view(camera.camera, camera.eye, camera.range.near,
-                                                splats.profile, camera.camera),
-                          camera.scale},
-                         weights);
+    use.views.push_back(
+        renderer.add_weights({layer.get(),
+                              splatting::image_view(camera.camera, camera.eye, camera.range.near,
+                                                    splats.profile, camera.camera),
+                              camera.scale},
+                             weights));
     if (progress) progress(double(i + 1) / double(views.size()));
   }
-  std::vector<std::uint64_t> result(all.size());
+  use.weights.resize(all.size());
   for (std::size_t i = 0; i < drawn.size(); ++i)
-    result[drawn[i]] = std::uint64_t(std::llround(1e6 * weights[i]));
-  return result;
+    use.weights[drawn[i]] = std::uint64_t(std::llround(1e6 * weights[i]));
+  return use;
 }
 
-}  // namespace tureen::tradeoff
+}  // namespace tureen
