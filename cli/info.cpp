@@ -7,22 +7,27 @@
 #include <glm/trigonometric.hpp>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "base/decimal_text.hpp"
 #include "base/existing_path.hpp"
 #include "base/platform/process.hpp"
+#include "base/shown_text.hpp"
 #include "camera/navigation.hpp"
+#include "camera/survey_views.hpp"
 #include "cli/commands.hpp"
 #include "cli/dataset_info.hpp"
 #include "cli/options/memory_option.hpp"
 #include "cli/options/scene_argument.hpp"
+#include "cli/progress.hpp"
 #include "cli/report.hpp"
 #include "cli/table.hpp"
 #include "formats/dataset/camera_file.hpp"
 #include "formats/dataset/dataset.hpp"
 #include "jobs/bench/plan_json.hpp"
 #include "jobs/cameras/camera_run.hpp"
+#include "jobs/visibility/splat_stats.hpp"
 #include "runtime/device_forecast.hpp"
 #include "runtime/plan/plan_description.hpp"
 #include "scene/edit/baked_transform.hpp"
@@ -38,6 +43,7 @@ struct InfoOptions {
   SceneArguments scene;
   bool strict = false;
   bool json = false;
+  bool stats = false;
   std::string plot;  // of a dataset
 };
 
@@ -146,7 +152,50 @@ struct LayerFacts {
   RenderPlan plan;
   DeviceForecast forecast;
   Lint lint;
+  std::optional<SplatStats> stats = {};  // of splats, on request
 };
+
+/// As many views as `tureen convert` compares; sizes that take seconds for 100,000 splats.
+constexpr std::size_t stats_views = 16;
+constexpr int stats_side = 400;
+
+void add_stats(const Scene& scene, std::vector<LayerFacts>& layers) {
+  const std::vector<Camera> views = survey_views(scene, stats_views, stats_side);
+  Progress progress("drawing views");
+  for (LayerFacts& facts : layers)
+    if (facts.splats)
+      facts.stats = splat_stats(*facts.splats, facts.layer->world_from_layer, views,
+                                [&](double done) { progress.update(done); });
+}
+
+std::vector<std::string> stats_lines(const SplatStats& stats, const Splats& splats) {
+  std::vector<std::string> lines;
+  if (stats.views > 0) {
+    lines.push_back(fmt::format(
+        "overdraw: {:.1f} splats per covered pixel over {} views, at most {:.1f}{}",
+        stats.mean_overdraw, stats.views, stats.worst_overdraw,
+        stats.worst_view.empty() ? "" : fmt::format(" ({})", shown_text(stats.worst_view))));
+    lines.push_back(fmt::format("never drawn in these views: {} ({:.1f} %)",
+                                counted(stats.never_drawn, "splat"),
+                                100.0 * double(stats.never_drawn) / double(count(splats))));
+  } else {
+    lines.push_back("overdraw: not measured, as there are too many splats");
+  }
+  for (const ColumnBytes& column : stats.columns)
+    lines.push_back(column.name + ": " + bytes_text(column.bytes));
+  return lines;
+}
+
+Json stats_json(const SplatStats& stats) {
+  Json bytes = Json::object();
+  for (const ColumnBytes& column : stats.columns) bytes[column.name] = column.bytes;
+  return {{"views", stats.views},
+          {"mean_overdraw", stats.mean_overdraw},
+          {"worst_overdraw", stats.worst_overdraw},
+          {"worst_view", stats.worst_view},
+          {"never_drawn", stats.never_drawn},
+          {"bytes", bytes}};
+}
 
 Json lint_json(const LayerFacts& facts) {
   return facts.soup ? to_json(facts.lint, LintFinding::counted)
@@ -222,6 +271,8 @@ void say_layer(const LayerFacts& facts) {
   say_list("Layer " + facts.name + ":", table.lines());
   say_list("Plan of " + facts.name + ":", describe(facts.plan));
   say_list("Lint of " + facts.name + ":", lint_lines(facts.lint));
+  if (facts.stats)
+    say_list("Statistics of " + facts.name + ":", stats_lines(*facts.stats, *facts.splats));
 }
 
 Json matrix_json(const glm::dmat4& matrix) {
@@ -272,6 +323,7 @@ Json to_json(const LayerFacts& facts) {
       {{"bytes_in_memory", bytes_in_memory(facts)}, {"bytes_on_device", facts.forecast.bytes}});
   json.update(plan_json(facts.plan));
   json["lint"] = lint_json(facts);
+  if (facts.stats) json["stats"] = stats_json(*facts.stats);
   return json;
 }
 
@@ -352,6 +404,7 @@ void say_scene(const InfoOptions& options, const Scene& scene, const Subject& su
   if (only) say_list("Plan:", describe(only->plan));
   say_list("Devices:", devices.lines);
   if (only) say_list("Lint:", lint_lines(only->lint));
+  if (only && only->stats) say_list("Statistics:", stats_lines(*only->stats, *only->splats));
   if (!only)
     for (const LayerFacts& facts : layers) say_layer(facts);
 }
@@ -396,6 +449,7 @@ Json to_json(const InfoOptions& options, const Scene& scene, const Subject& subj
   if (only) json.update(plan_json(only->plan));
   json["devices"] = devices.json;
   if (only) json["lint"] = lint_json(*only);
+  if (only && only->stats) json["stats"] = stats_json(*only->stats);
   return json;
 }
 
@@ -417,7 +471,7 @@ bool of_dataset(const InfoOptions& options) {
   }
   if (paths.size() > 1)
     throw UsageError("'" + *dataset + "' is a dataset; info prints only one at a time");
-  if (options.strict || options.scene.choice != ReadingChoice{})
+  if (options.strict || options.stats || options.scene.choice != ReadingChoice{})
     throw UsageError("'" + *dataset +
                      "' is a dataset: of the options, only --json, -o and --max-memory apply");
   return true;
@@ -433,6 +487,7 @@ ExitCode inform(const InfoOptions& options) {
   const Scene scene = read(arguments);
   std::vector<LayerFacts> layers;
   for (std::size_t i = 0; i < scene.layers.size(); ++i) layers.push_back(facts_of(scene, i));
+  if (options.stats) add_stats(scene, layers);
   const Subject subject = subject_of(boxes_of(scene), glm::dvec3(scene.info.up));
   const DeviceFit devices(layers);
   say_scene(options, scene, subject, layers, devices);
@@ -461,6 +516,7 @@ Examples:
   tureen info soup.glb
   tureen info house.glb fox.glb               the layers of a scene from two files
   tureen info soup.glb --json | jq .triangles
+  tureen info splats.ply --stats              splats per pixel, splats without use, bytes
   tureen info soup.glb --strict               a check for scripts
   tureen info photographs -o cameras.svg      a dataset: sizes, lenses, points, plot of cameras)");
   add_scene_arguments(command, options->scene);
@@ -468,6 +524,10 @@ Examples:
                      "of a dataset: plot of its cameras from above and from the side");
   add_memory_option(command);
   command.add_flag("--json", options->json, "print all properties as JSON to standard output");
+  command.add_flag(
+      "--stats", options->stats,
+      "of splats: draw 16 views; print the splats blended per pixel, the splats that no "
+      "view shows, and the bytes of each column");
   command.add_flag("--strict", options->strict,
                    "exit with 1 if lint finds anything or the scene fits only on some devices");
   command.does([options] { return inform(*options); });

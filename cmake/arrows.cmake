@@ -70,7 +70,7 @@ set(arrows
   "trainer/diffsoup: base image scene trainer/common"
   "jobs/baseline: base image scene runtime runtime/gl runtime/plan runtime/passes runtime/splats"
   "jobs/timing: base image scene runtime runtime/gl"
-  "jobs/visibility: base image scene oracle runtime runtime/gl"
+  "jobs/visibility: base image scene oracle splatting/* runtime runtime/gl runtime/passes"
   "jobs/bench: base image scene runtime runtime/gl runtime/plan runtime/passes runtime/splats jobs/baseline jobs/timing"
   "jobs/eval: base image scene runtime runtime/gl runtime/plan jobs/baseline"
   "jobs/tradeoff: base image scene oracle splatting/* tracing runtime runtime/gl runtime/plan runtime/passes jobs/baseline jobs/bench jobs/eval jobs/timing jobs/visibility"

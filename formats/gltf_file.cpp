@@ -5,9 +5,21 @@
 #include "formats/common/format_remarks.hpp"
 #include "formats/glb/glb_container.hpp"
 #include "formats/gltf/gltf.hpp"
+#include "formats/splat/spz.hpp"
 #include "formats/tureen_glb/tureen_glb.hpp"
 
 namespace tureen {
+
+namespace {
+
+// A page has neither zlib nor zstd.
+#ifdef __EMSCRIPTEN__
+constexpr ReadSpz spz_in_gltf = nullptr;
+#else
+constexpr ReadSpz spz_in_gltf = read_spz;
+#endif
+
+}  // namespace
 
 Scene read_gltf_or_glb(const std::filesystem::path& path, const ReadOptions& options) {
   Input input = Input::open(path);
@@ -20,7 +32,9 @@ Scene read_gltf_or_glb(Input& input, const std::filesystem::path& folder,
   GlbContainer glb = binary ? read_glb_container(input) : read_gltf_json(input);
   const bool ours = is_tureen_glb(glb);
   if (binary && ours) return read_tureen_glb(input, glb, options);
-  Scene scene = read_gltf(input, std::move(glb), folder, options);
+  const bool is_aligned = glb.is_aligned;
+  Scene scene = read_gltf(input, std::move(glb), folder, options, spz_in_gltf);
+  if (!is_aligned) scene.info.remarks.push_back({&remarks::chunks_unaligned});
   if (ours)
     scene.info.remarks.push_back({&remarks::mean_colors_shown, {{"extension", tureen_extension}}});
   return scene;

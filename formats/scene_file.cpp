@@ -184,12 +184,6 @@ const std::vector<Format>& formats() {
        .read_extensions = {".ksplat"},
        .recognises = [](const Candidate& c) { return !c.is_folder && is_ksplat(c.path); },
        .read = read_ksplat},
-      {.name = "OBJ",
-       .description = "triangles with one colour per vertex, as text",
-       .written_extensions = {".obj"},
-       .recognises = [](const Candidate&) { return false; },
-       .write = natively<write_obj>,
-       .assumed_up = [](const Scene&) { return assumed_up; }},
 #endif
       {.name = ".splat",
        .description = "Gaussians of one colour in records of 32 bytes, without a header",
@@ -203,10 +197,26 @@ const std::vector<Format>& formats() {
        .is_quantised = true},
       {.name = "MobileNeRF",
        .description = "a folder of shapes with feature textures and a color MLP, or a file in it",
-       .read_extensions = {".obj"},
+       .read_extensions =
+           in_browser ? std::vector<const char*>{".obj"} : std::vector<const char*>{},
        .is_folder = true,
        .recognises = [](const Candidate& c) { return is_mobilenerf(c.path); },
        .read = read_mobilenerf},
+#ifndef __EMSCRIPTEN__
+      // After MobileNeRF, which reads its shapes.
+      {.name = "OBJ",
+       .description = "triangles with colours of vertices, colours of materials and textures",
+       .read_extensions = {".obj"},
+       .written_extensions = {".obj"},
+       // No content is a sign of it.
+       .recognises =
+           [](const Candidate& c) {
+             return !c.is_folder && extension_of(c.path) == ".obj" && !stray_content(c.head);
+           },
+       .read = read_obj,
+       .write = plainly<write_obj>,
+       .assumed_up = [](const Scene&) { return obj_up; }},
+#endif
   };
   return table;
 }

@@ -82,7 +82,7 @@ void add_rays(std::string& command, const DrawingChoice& choice, const SceneSour
     if (!layer || !layer->material || layer->material == read.scene.layers[i].material) continue;
     const std::string surface =
         is_glass(*layer->material) ? fmt::format("glass:{}", layer->material->ior) : "mirror";
-    command += " --material " + quoted(read.name(i) + "=" + surface);
+    command += " --material " + shell_word(read.name(i) + "=" + surface);
   }
 }
 

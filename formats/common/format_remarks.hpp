@@ -17,6 +17,9 @@ inline constexpr RemarkKind bytes_ignored{"bytes_ignored", Severity::note,
 inline constexpr RemarkKind content_misnamed{
     "content_misnamed", Severity::note,
     "The name ends in {extension}, but the content is {format}."};
+inline constexpr RemarkKind chunks_unaligned{"chunks_unaligned", Severity::note,
+                                             "The length of a chunk of the GLB is not a multiple "
+                                             "of 4, as glTF requires; it is read anyway."};
 inline constexpr RemarkKind mean_colors_shown{
     "mean_colors_shown", Severity::loss,
     "{extension} is read only from .glb: mean colours are drawn"};

@@ -1,5 +1,6 @@
 #include "formats/glb/glb_container.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <string_view>
 
@@ -52,10 +53,21 @@ Chunk read_chunk_header(Input& input, int index, std::uint64_t length) {
   const std::string size = "a GLB chunk of " + std::to_string(chunk.size) + " bytes, ";
   if (chunk.size > length - chunk.start)
     fail(size + "but " + std::to_string(length - chunk.start) + " are left");
-  if (chunk.size % 4 != 0) fail(size + "which is not a multiple of 4");
   if ((chunk.type == json_chunk) != (index == 0))
     fail(index == 0 ? "the first GLB chunk is not JSON" : "a second JSON chunk in the GLB file");
   return chunk;
+}
+
+/// The place of the chunk after one of odd length: at its end, or at the next multiple of 4 if only
+/// there is a binary chunk, or the end of the file.
+std::uint64_t after_odd_chunk(Input& input, const Chunk& chunk, std::uint64_t length) {
+  const std::uint64_t end = chunk.start + chunk.size, aligned = (end + 3) / 4 * 4;
+  if (aligned > length) return end;
+  if (aligned == length) return aligned;
+  std::uint32_t type = 0;
+  input.seek(std::min(end + 4, length));
+  input.read_some(std::as_writable_bytes(std::span(&type, 1)));
+  return type == bin_chunk ? end : aligned;
 }
 
 /// Reads the JSON, or stores the location of the binary chunk.
@@ -97,7 +109,9 @@ GlbContainer read_glb_container(Input& input) {
   for (int index = 0; input.remaining() > 0; ++index) {
     const Chunk chunk = read_chunk_header(input, index, length);
     take(input, chunk, index, glb);
-    input.seek(chunk.start + chunk.size);
+    const bool is_odd = chunk.size % 4 != 0;
+    glb.is_aligned = glb.is_aligned && !is_odd;
+    input.seek(is_odd ? after_odd_chunk(input, chunk, length) : chunk.start + chunk.size);
   }
   require_json(input, glb);
   return glb;
@@ -113,6 +127,7 @@ std::optional<GlbContainer> read_glb_beginning(Input& input) {
     const std::uint64_t to_come = length - input.size();
     if (input.remaining() < chunk_header_bytes && to_come > 0) return std::nullopt;
     const Chunk chunk = read_chunk_header(input, index, length);
+    if (chunk.size % 4 != 0) input.fail_at(chunk.header, "a GLB chunk of odd length");
     if (chunk.type == json_chunk && chunk.size > input.remaining()) return std::nullopt;
     take(input, chunk, index, glb);
   }

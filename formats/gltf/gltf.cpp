@@ -37,12 +37,12 @@ bool writes_srgb_colors(const std::string& generator) {
 
 class Importer {
  public:
-  Importer(GltfDocument& document, const ReadOptions& options)
+  Importer(GltfDocument& document, const ReadOptions& options, ReadSpz read_spz)
       : document_(document),
         options_(options),
         generator_(document.model().asset.generator),
         ordinary_(document, color_space(), tally_),
-        splats_(document, options.keep_rows) {}
+        splats_(document, options, read_spz) {}
 
   Scene scene() {
     walk();
@@ -51,6 +51,8 @@ class Importer {
     add_surfaces(scene.layers);
     if (scene.layers.empty() && splats_.layers().empty())
       scene.layers.push_back({.primitives = soup_of(ordinary_)});
+    if (auto names = document_.dropped_extensions(); !names.empty())
+      tally_.remarks.push_back({&remarks::extensions_dropped, {{"extensions", std::move(names)}}});
     if (!document_.model().animations.empty())
       tally_.remarks.push_back({&remarks::animations_dropped});
     for (Layer& layer : splats_.layers()) scene.layers.push_back(std::move(layer));
@@ -319,9 +321,9 @@ GlbContainer read_gltf_json(Input& input) {
 }
 
 Scene read_gltf(Input& input, GlbContainer glb, const std::filesystem::path& folder,
-                const ReadOptions& options) {
-  GltfDocument document(input, std::move(glb), folder);
-  Scene scene = Importer(document, options).scene();
+                const ReadOptions& options, ReadSpz read_spz) {
+  GltfDocument document(input, std::move(glb), folder, read_spz != nullptr);
+  Scene scene = Importer(document, options, read_spz).scene();
   scene.info.name = std::filesystem::path(input.name()).stem().string();
   return scene;
 }

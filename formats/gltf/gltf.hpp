@@ -7,7 +7,7 @@
 // KHR_materials_unlit, since a trained soup has its light baked in. Mirrors and glass are layers of
 // their own, for rays: formats/gltf/gltf_surface.hpp.
 // Gaussian splats (KHR_gaussian_splatting) become a layer for each primitive of a node:
-// formats/gltf/gltf_splats.hpp.
+// formats/gltf/gltf_splats.hpp. They may be SPZ files.
 // Not supported: lines and other points, animation, skins, morph targets, lights, emission, normal
 // maps, mip levels. A remark reports them if they matter. BLEND is drawn as MASK with a cutoff of
 // 0.5. A file that requires an unsupported extension is rejected with the extension's name.
@@ -28,6 +28,9 @@ namespace tureen {
 
 struct GlbContainer;
 
+/// Reads an SPZ file (formats/splat/spz.hpp).
+using ReadSpz = Scene (*)(Input&, const ReadOptions&);
+
 /// Whether a file with these first bytes may be glTF: the magic of a GLB, or a JSON object with an
 /// early "asset".
 bool is_gltf(std::span<const std::byte> head);
@@ -39,8 +42,9 @@ GlbContainer read_gltf_json(Input& input);
 /// others one soup, the first layer; a file without others has no such layer. A soup has
 /// VertexColors if none of its materials has a texture, otherwise UvTextures. Files that the
 /// document names lie in `folder`. Throws InputError; its reason begins with the place in the JSON,
-/// as in "accessors[3]: ..".
+/// as in "accessors[3]: ..". `read_spz`: null where SPZ files are not supported; files with
+/// KHR_gaussian_splatting_compression_spz_2 are then rejected.
 Scene read_gltf(Input& input, GlbContainer glb, const std::filesystem::path& folder,
-                const ReadOptions& options);
+                const ReadOptions& options, ReadSpz read_spz = nullptr);
 
 }  // namespace tureen

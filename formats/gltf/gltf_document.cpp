@@ -22,15 +22,24 @@ constexpr std::array known_extensions = {"KHR_gaussian_splatting",     "KHR_mate
                                          "KHR_materials_transmission", "KHR_materials_unlit",
                                          "KHR_mesh_quantization",      "KHR_texture_transform"};
 
+/// Splats in an SPZ file: the extension, and the name that its draft and older writers also use.
+constexpr std::string_view spz_prefix = "KHR_gaussian_splatting_compression_spz";
+
 /// A hint for a file that requires an extension that is not supported; "" without one.
 std::string way_out(const std::string& extension) {
-  if (extension.starts_with("KHR_gaussian_splatting_compression_spz"))
+  if (extension.starts_with(spz_prefix))
     return "its splats are an SPZ file; splat-transform IN.glb OUT.ply converts it";
   if (extension == "KHR_draco_mesh_compression" || extension == "EXT_meshopt_compression")
     return "gltf-transform copy IN.glb OUT.glb decompresses it";
   if (extension == "KHR_texture_basisu")
     return "gltf-transform ktxdecompress IN.glb OUT.glb decompresses it";
   return {};
+}
+
+bool is_applied(const std::string& extension) {
+  return std::find(known_extensions.begin(), known_extensions.end(), extension) !=
+             known_extensions.end() ||
+         extension.starts_with(spz_prefix);
 }
 
 /// tinygltf's messages as one line without a full stop.
@@ -79,7 +88,8 @@ std::uint64_t count_values(const nlohmann::json& value) {
 
 }  // namespace
 
-GltfDocument::GltfDocument(Input& input, GlbContainer glb, std::filesystem::path folder)
+GltfDocument::GltfDocument(Input& input, GlbContainer glb, std::filesystem::path folder,
+                           bool has_spz)
     : input_(input), glb_(std::move(glb)), folder_(std::move(folder)) {
   const JsonView root(glb_.json, input_.name());
   const JsonView asset = root["asset"];
@@ -90,13 +100,24 @@ GltfDocument::GltfDocument(Input& input, GlbContainer glb, std::filesystem::path
   if (const auto required = root.find("extensionsRequired"))
     for (std::size_t i = 0; i < required->size(); ++i) {
       const std::string& name = required->at(i).text();
-      if (std::find(known_extensions.begin(), known_extensions.end(), name) ==
-          known_extensions.end())
+      if (!is_applied(name) || (!has_spz && name.starts_with(spz_prefix)))
         required->at(i).fail("the file requires the extension " + name + ", which is not supported",
                              way_out(name));
     }
   if (const auto list = root.find("buffers")) buffers_.resize(list->size());
   parse();
+}
+
+std::vector<std::string> GltfDocument::dropped_extensions() const {
+  constexpr std::size_t most = 8;
+  std::vector<std::string> names;
+  const auto used = root().find("extensionsUsed");
+  for (std::size_t i = 0; used && i < used->size() && names.size() < most; ++i) {
+    const std::string& name = used->at(i).text();
+    // Another remark names ours.
+    if (!is_applied(name) && !name.starts_with("TUREEN_")) names.push_back(name);
+  }
+  return names;
 }
 
 /// Counts the memory of tinygltf's model. Its structures are large: {} becomes a material of two

@@ -23,10 +23,12 @@ namespace tureen {
 class GltfDocument {
  public:
   /// `glb` is the container in `input`, or the JSON of a whole .gltf. Throws InputError if it is
-  /// not glTF 2.0 or requires an unsupported extension. The input must outlive this object.
-  GltfDocument(Input& input, GlbContainer glb, std::filesystem::path folder);
+  /// not glTF 2.0 or requires an unsupported extension. `has_spz`: whether splats in SPZ files are
+  /// supported. The input must outlive this object.
+  GltfDocument(Input& input, GlbContainer glb, std::filesystem::path folder, bool has_spz);
 
   const tinygltf::Model& model() const { return model_; }
+  const std::string& name() const { return input_.name(); }
   JsonView root() const { return {glb_.json, input_.name()}; }
 
   struct Elements {
@@ -40,6 +42,12 @@ class GltfDocument {
                     const std::string& where);
 
   Image8 image(int index);
+
+  /// The bytes of a buffer view; they live as long as this object.
+  std::span<const std::byte> view_bytes(int view, const std::string& where);
+
+  /// Extensions that the file uses and that are not applied; at most 8.
+  std::vector<std::string> dropped_extensions() const;
 
   /// Counts memory before its allocation; fails at `where` beyond the budget.
   void take_memory(std::uint64_t elements, std::size_t each, const std::string& where) const;
@@ -65,7 +73,6 @@ class GltfDocument {
   std::span<const std::byte> buffer(int index, const std::string& where);
   std::vector<std::byte> load_buffer(std::size_t index, std::uint64_t size);
   std::vector<std::byte> load_uri(const JsonView& uri, std::optional<std::uint64_t> size);
-  std::span<const std::byte> view_bytes(int view, const std::string& where);
   void take_model_memory() const;
   void parse();
 

@@ -15,6 +15,16 @@ inline constexpr RemarkKind splat_colors_linear{
     "splat_colors_linear", Severity::loss,
     "colours will differ: the file expects blending in linear light, and Tureen blends "
     "display-referred colours"};
+inline constexpr RemarkKind extensions_dropped{
+    "extensions_dropped", Severity::loss,
+    "the file uses {extensions}, {extensions:which is|which are} not drawn"};
+inline constexpr RemarkKind spz_axes_of_draft{
+    "spz_axes_of_draft", Severity::note,
+    "the SPZ splats are turned to the axes left, up, front, as the draft of {extension} specifies"};
+inline constexpr RemarkKind spz_axes_stored{
+    "spz_axes_stored", Severity::assumption,
+    "the SPZ splats keep their stored axes, as CesiumJS draws such files: they have no kernel and "
+    "colour space"};
 inline constexpr RemarkKind vertex_colors_srgb{"vertex_colors_srgb", Severity::note,
                                                "vertex colours are read as sRGB, as requested"};
 inline constexpr RemarkKind vertex_colors_linear{"vertex_colors_linear", Severity::note,

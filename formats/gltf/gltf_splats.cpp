@@ -1,6 +1,9 @@
 #include "formats/gltf/gltf_splats.hpp"
 
+#include <glm/gtc/matrix_transform.hpp>
 #include <numeric>
+#include <string_view>
+#include <utility>
 
 #include "formats/common/format_remarks.hpp"
 #include "formats/common/splat_values.hpp"
@@ -15,6 +18,7 @@ namespace tureen {
 namespace {
 
 constexpr char splatting[] = "KHR_gaussian_splatting";
+constexpr char spz_extension[] = "KHR_gaussian_splatting_compression_spz_2";
 
 /// The last degree of KHR_gaussian_splatting.
 constexpr int last_khr_degree = 3;
@@ -26,6 +30,16 @@ std::string splatting_attribute(const std::string& name) {
 std::string coefficient_name(int degree, int order) {
   return splatting_attribute("SH_DEGREE_" + std::to_string(degree) + "_COEF_" +
                              std::to_string(order));
+}
+
+/// The object of the SPZ file in an object of KHR_gaussian_splatting, or null. The draft and older
+/// writers also use the second name.
+const tinygltf::Value* spz_of(const tinygltf::Value& object) {
+  if (!object.IsObject() || !object.Has("extensions")) return nullptr;
+  const tinygltf::Value& extensions = object.Get("extensions");
+  for (const char* name : {spz_extension, "KHR_gaussian_splatting_compression_spz"})
+    if (extensions.IsObject() && extensions.Has(name)) return &extensions.Get(name);
+  return nullptr;
 }
 
 /// Three floats a splat as vectors.
@@ -53,6 +67,13 @@ void GltfSplatBuilder::add_mesh(int index, const Node& node, const std::string& 
       document_.fail(where, "splats need a node that neither stretches nor shears: " + *reason);
     const std::string place =
         "meshes[" + std::to_string(index) + "].primitives[" + std::to_string(i) + "]";
+    const tinygltf::Value& object = mesh.primitives[i].extensions.at(splatting);
+    if (const tinygltf::Value* spz = spz_of(object)) {
+      const bool is_older = !object.Has("kernel") && !object.Has("colorSpace");
+      if (!is_older) check_method(mesh.primitives[i], place);
+      add_spz(*spz, std::move(layer), is_older, place + ".extensions." + splatting);
+      continue;
+    }
     Splats splats = read(mesh.primitives[i], place);
     if (const auto reason = defect(splats)) document_.fail(place, *reason);
     layer.primitives = std::move(splats);
@@ -65,7 +86,41 @@ std::vector<Remark> GltfSplatBuilder::remarks() const {
   if (dropped_ > 0)
     result.push_back({&remarks::splats_dropped, {{"dropped", dropped_}, {"all", total_}}});
   if (is_linear_) result.push_back({&remarks::splat_colors_linear});
+  result.insert(result.end(), spz_remarks_.begin(), spz_remarks_.end());
   return result;
+}
+
+void GltfSplatBuilder::add_spz(const tinygltf::Value& extension, Layer layer, bool is_older,
+                               const std::string& where) {
+  const std::string place = where + ".extensions." + spz_extension;
+  if (!read_spz_)
+    document_.fail(place, "splats in SPZ files are not supported here",
+                   "tureen convert IN.glb OUT.glb stores them as they are");
+  if (!extension.IsObject() || !extension.Has("bufferView") || !extension.Get("bufferView").IsInt())
+    document_.fail(place, "lacks \"bufferView\"");
+  const int view = extension.Get("bufferView").Get<int>();
+  Input input = Input::memory(
+      document_.name() + ", the SPZ file in bufferViews[" + std::to_string(view) + "]",
+      document_.view_bytes(view, place), document_.budget());
+  ReadOptions options{.max_splats = options_.max_splats, .keep_rows = options_.keep_rows};
+  Scene scene = read_spz_(input, options);
+  Layer& read = scene.layers.front();
+  total_ += count(std::get<Splats>(read.primitives));
+  if (total_ > document_.vertex_budget())
+    document_.fail(where, "the scene's nodes repeat its meshes to more than " +
+                              std::to_string(document_.vertex_budget()) + " splats");
+  // The reader has turned the stored axes, right, up, back, to right, down, front.
+  const glm::dvec3 signs = is_older ? glm::dvec3(1, -1, -1) : glm::dvec3(-1, -1, 1);
+  layer.world_from_layer =
+      layer.world_from_layer * glm::scale(glm::dmat4(1), signs) * read.world_from_layer;
+  layer.primitives = std::move(read.primitives);
+  layers_.push_back(std::move(layer));
+  if (is_older)
+    spz_remarks_.push_back({&remarks::spz_axes_stored});
+  else
+    spz_remarks_.push_back({&remarks::spz_axes_of_draft, {{"extension", spz_extension}}});
+  for (Remark& remark : scene.info.remarks)
+    if (std::string_view(remark.kind->setting) != "up") spz_remarks_.push_back(std::move(remark));
 }
 
 /// Checks the values of the extension's object.
@@ -156,7 +211,7 @@ Splats GltfSplatBuilder::read(const tinygltf::Primitive& primitive, const std::s
   Gaussians& gaussians = splats.kernel.emplace<Gaussians>();
   document_.take_memory(count,
                         bytes_per_splat(splats.kernel, splats.color.degree) +
-                            (keep_rows_ ? sizeof splats.rows[0] : 0),
+                            (options_.keep_rows ? sizeof splats.rows[0] : 0),
                         where);
   PassingMemory passing(document_.budget());
   document_.take_memory(count, sizeof(std::uint8_t), where);
@@ -183,7 +238,7 @@ Splats GltfSplatBuilder::read(const tinygltf::Primitive& primitive, const std::s
         splats.color.coefficients[stride * i + k] = {plane[3 * i], plane[3 * i + 1],
                                                      plane[3 * i + 2]};
     }
-  if (keep_rows_) number_rows(splats);
+  if (options_.keep_rows) number_rows(splats);
   std::vector<std::uint8_t> keeps(count);
   for (std::size_t i = 0; i < count; ++i) keeps[i] = is_valid(splats, i);
   splats = keep_splats(std::move(splats), keeps);

@@ -30,6 +30,27 @@ inline constexpr RemarkKind face_colors_mapped{
     "store."};
 inline constexpr RemarkKind text_ignored{
     "text_ignored", Severity::note, "Text after the last face, from line {line} on, is ignored."};
+inline constexpr RemarkKind up_unknown_to_obj{"up_unknown_to_obj", Severity::assumption,
+                                              "OBJ stores no up axis: y is assumed", "up"};
+inline constexpr RemarkKind points_and_lines_skipped{
+    "points_and_lines_skipped", Severity::loss,
+    "{elements} {elements:point or line is|points and lines are} not drawn."};
+inline constexpr RemarkKind material_library_missing{
+    "material_library_missing", Severity::loss,
+    "The material library {library} is not used: {reason}."};
+inline constexpr RemarkKind materials_missing{
+    "materials_missing", Severity::loss,
+    "{materials:material|materials} {materials:and} {materials:is|are} in no library: drawn grey "
+    "(0.8)."};
+inline constexpr RemarkKind texture_missing{
+    "texture_missing", Severity::loss,
+    "The texture of the material {material} is not drawn: {reason}."};
+inline constexpr RemarkKind texture_placement_dropped{
+    "texture_placement_dropped", Severity::loss,
+    "The material {material} moves or scales its texture (-o, -s, -t), which is ignored."};
+inline constexpr RemarkKind transparency_cut_out{
+    "transparency_cut_out", Severity::loss,
+    "Transparent materials are drawn as cut-outs at an opacity of 0.5."};
 inline constexpr RemarkKind shapes_missing{
     "shapes_missing", Severity::loss,
     "{shapes:shape|shapes} {shapes:and} of {all} missing: the others are drawn"};

@@ -22,7 +22,7 @@ void append_number(std::string& line, float value) {
 }  // namespace
 
 std::vector<std::string> write_obj(const Scene& scene, const std::filesystem::path& path) {
-  PlainMesh mesh(scene, "OBJ");
+  PlainMesh mesh(scene, "OBJ", obj_up);
   const TriangleSoup& soup = mesh.soup();
   const auto& rgba = mesh.face_rgba() ? *mesh.face_rgba() : *mesh.vertex_rgba();
   bool is_opaque = true;

@@ -14,6 +14,7 @@
 #include "scene/edit/mean_color.hpp"
 #include "scene/edit/moved_normals.hpp"
 #include "scene/edit/opaque_windows.hpp"
+#include "scene/similarity.hpp"
 
 namespace tureen {
 
@@ -129,7 +130,7 @@ Scene MeshBuilder::finish(std::string name, std::string source) {
   return scene;
 }
 
-PlainMesh::PlainMesh(const Scene& scene, const std::string& format) {
+PlainMesh::PlainMesh(const Scene& scene, const std::string& format, const glm::vec3& up) {
   const Layer& layer = only_layer(scene);
   if (const auto* splats = std::get_if<Splats>(&layer.primitives)) {
     if (!std::holds_alternative<TriangleWindows>(splats->kernel))
@@ -144,8 +145,9 @@ PlainMesh::PlainMesh(const Scene& scene, const std::string& format) {
   }
   if (!face_rgba() && !vertex_rgba()) use_mean_colors(format);
   if (layer.world_from_layer != glm::dmat4(1.0)) use_world_positions(layer, format);
-  if (scene.info.up != assumed_up)
-    lost.push_back(format + " stores no up axis; readers assume (0, 0, 1).");
+  if (scene.info.up != up)
+    lost.push_back(format + " stores no up axis; readers assume " + axis_name(glm::dvec3(up)) +
+                   ".");
   if (scene.info.background != glm::vec3(0.0f))
     lost.push_back(format + " holds no background colour.");
   if (!scene.cameras.empty()) lost.push_back(format + " holds no cameras.");

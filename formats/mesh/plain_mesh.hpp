@@ -15,6 +15,9 @@
 
 namespace tureen {
 
+/// The up axis of files that do not store one.
+inline constexpr glm::vec3 assumed_up{0.0f, 0.0f, 1.0f};
+
 /// Collects vertices and polygons in file order. A reader fills `positions` and, if the file has
 /// them, `vertex_rgba`. It passes polygons corner by corner, so that no polygon is stored whole.
 /// Allocations count against the input's budget.
@@ -78,9 +81,10 @@ class MeshBuilder {
 /// rotation, scale or mirror, and rounding by more than a millionth of the mesh's radius.
 class PlainMesh {
  public:
-  /// `format` is the format's name in the sentences. Keeps a reference to the scene if possible.
+  /// `format` is the format's name in the sentences, `up` the axis that its readers assume. Keeps a
+  /// reference to the scene if possible.
   /// Throws UsageError for any number of layers other than one.
-  PlainMesh(const Scene& scene, const std::string& format);
+  PlainMesh(const Scene& scene, const std::string& format, const glm::vec3& up = assumed_up);
   PlainMesh(Scene&&, const std::string&) = delete;
   PlainMesh(const PlainMesh&) = delete;
   PlainMesh& operator=(const PlainMesh&) = delete;
@@ -99,9 +103,6 @@ class PlainMesh {
   std::optional<TriangleSoup> own_;
   const TriangleSoup* soup_ = nullptr;  // the scene's, or own_
 };
-
-/// The up axis of files that do not store one.
-inline constexpr glm::vec3 assumed_up{0.0f, 0.0f, 1.0f};
 
 /// Whether every component of every colour is byte / 255 for some byte.
 bool are_bytes(const std::vector<glm::vec4>& rgba);

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <utility>
 
 #include "base/threads/thread_pool.hpp"
+#include "formats/sog/palette_kernels.hpp"
 
 namespace tureen {
 
@@ -20,89 +20,13 @@ constexpr int cell_steps = 8, entry_steps = 6, whole_steps = 2;
 /// Cells whose entries a row is compared with.
 constexpr std::size_t probed_cells = 6;
 constexpr std::size_t rows_a_task = 4096;
-constexpr std::size_t lanes = 8, rows_at_once = 4;
-
-/// Points in blocks of `lanes`: value d of all points of a block is contiguous.
-class PointBlocks {
- public:
-  PointBlocks(std::span<const float> rows, std::size_t dimensions) : dimensions_(dimensions) {
-    count_ = rows.size() / dimensions;
-    const std::size_t blocks = (count_ + lanes - 1) / lanes;
-    values_.assign(blocks * dimensions * lanes, 0.0f);
-    // A missing point is never the nearest.
-    offsets_.assign(blocks * lanes, std::numeric_limits<float>::max());
-    for (std::size_t i = 0; i < count_; ++i) {
-      float squared = 0;
-      for (std::size_t d = 0; d < dimensions; ++d) {
-        const float value = rows[i * dimensions + d];
-        values_[(i / lanes * dimensions + d) * lanes + i % lanes] = value;
-        squared += value * value;
-      }
-      offsets_[i] = squared / 2;
-    }
-  }
-
-  struct Nearest {
-    float score = std::numeric_limits<float>::max();  // (squared distance - squared row) / 2
-    std::uint32_t point = 0;
-  };
-
-  /// Improves `best` of each of the rows by the points of all blocks, numbered from `first` on.
-  void improve(const std::array<const float*, rows_at_once>& rows, std::uint32_t first,
-               std::array<Nearest, rows_at_once>& best) const {
-    std::array<std::array<float, lanes>, rows_at_once> least, place;
-    for (auto& each : least) each.fill(std::numeric_limits<float>::max());
-    for (auto& each : place) each.fill(0);
-    for (std::size_t b = 0; b * lanes < count_; ++b) {
-      const std::array<std::array<float, lanes>, rows_at_once> scores = block_scores(rows, b);
-      for (std::size_t r = 0; r < rows_at_once; ++r)
-        for (std::size_t l = 0; l < lanes; ++l) {
-          const bool is_less = scores[r][l] < least[r][l];
-          least[r][l] = is_less ? scores[r][l] : least[r][l];
-          place[r][l] = is_less ? float(b) : place[r][l];  // exact: below 2^24
-        }
-    }
-    for (std::size_t r = 0; r < rows_at_once; ++r)
-      for (std::size_t l = 0; l < lanes; ++l)
-        if (least[r][l] < best[r].score)
-          best[r] = {least[r][l], first + std::uint32_t(std::size_t(place[r][l]) * lanes + l)};
-  }
-
-  /// The scores of all points for one row.
-  void scores_of(const float* row, std::span<float> out) const {
-    for (std::size_t b = 0; b * lanes < count_; ++b) {
-      const auto scores = block_scores({row, row, row, row}, b)[0];
-      for (std::size_t l = 0; l < lanes && b * lanes + l < count_; ++l)
-        out[b * lanes + l] = scores[l];
-    }
-  }
-
-  std::size_t count() const { return count_; }
-
- private:
-  std::array<std::array<float, lanes>, rows_at_once> block_scores(
-      const std::array<const float*, rows_at_once>& rows, std::size_t b) const {
-    std::array<std::array<float, lanes>, rows_at_once> scores;
-    for (auto& each : scores) std::copy_n(&offsets_[b * lanes], lanes, each.begin());
-    const float* values = &values_[b * dimensions_ * lanes];
-    for (std::size_t d = 0; d < dimensions_; ++d, values += lanes)
-      for (std::size_t r = 0; r < rows_at_once; ++r) {
-        const float value = rows[r][d];
-        for (std::size_t l = 0; l < lanes; ++l) scores[r][l] -= value * values[l];
-      }
-    return scores;
-  }
-
-  std::size_t dimensions_, count_ = 0;
-  std::vector<float> values_, offsets_;
-};
 
 /// Calls act(rows, indices) with groups of `rows_at_once` rows; the last one repeats its last row.
 template <class Act>
 void in_groups(std::span<const float> vectors, std::size_t dimensions,
                std::span<const std::uint32_t> which, Act&& act) {
   for (std::size_t i = 0; i < which.size(); i += rows_at_once) {
-    std::array<const float*, rows_at_once> rows;
+    PointRows rows;
     std::array<std::size_t, rows_at_once> places;
     for (std::size_t r = 0; r < rows_at_once; ++r) {
       places[r] = std::min(i + r, which.size() - 1);
@@ -201,25 +125,15 @@ void Palette::divide(std::size_t size) {
   for (std::size_t i = 0; i < sampled; ++i) sample[i] = std::uint32_t(i * rows / sampled);
   centers_ = k_means(vectors_, dimensions_, weights_, sample, cells, cell_steps);
 
-  // The cell of each row, and its squared error.
-  const PointBlocks blocks(centers_, dimensions_);
+  find_probes();
   std::vector<float> errors(rows);
-  ThreadPool pool;
-  pool.run((rows + rows_a_task - 1) / rows_a_task, [&](std::size_t task) {
-    std::vector<std::uint32_t> which(std::min(rows_a_task, rows - task * rows_a_task));
-    std::iota(which.begin(), which.end(), std::uint32_t(task * rows_a_task));
-    in_groups(vectors_, dimensions_, which, [&](const auto& group, const auto& places) {
-      std::array<PointBlocks::Nearest, rows_at_once> best;
-      blocks.improve(group, 0, best);
-      for (std::size_t r = 0; r < rows_at_once; ++r) {
-        const std::size_t row = which[places[r]];
-        float squared = 0;
-        for (std::size_t d = 0; d < dimensions_; ++d) squared += group[r][d] * group[r][d];
-        indices_[row] = best[r].point;
-        errors[row] = std::max(0.0f, 2 * best[r].score + squared);
-      }
-    });
-  });
+  for (std::size_t row = 0; row < rows; ++row) {
+    indices_[row] = probes_[row * probes()];
+    const float* vector = &vectors_[row * dimensions_];
+    const float* center = &centers_[indices_[row] * dimensions_];
+    for (std::size_t d = 0; d < dimensions_; ++d)
+      errors[row] += (vector[d] - center[d]) * (vector[d] - center[d]);
+  }
   const auto members = members_of(indices_, cells);
 
   // Entries by cell: at least one, and no more than rows.
@@ -246,6 +160,7 @@ void Palette::divide(std::size_t size) {
     left -= more;
   }
   std::vector<std::vector<float>> entries(cells);
+  ThreadPool pool;
   pool.run(cells, [&](std::size_t c) {
     entries[c] = members[c].empty()
                      ? std::vector<float>(centers_.begin() + std::ptrdiff_t(c * dimensions_),
@@ -259,9 +174,42 @@ void Palette::divide(std::size_t size) {
   }
 }
 
-void Palette::assign() {
-  const std::size_t cells = cells_.size() - 1, probes = std::min(probed_cells, cells);
+std::size_t Palette::probes() const {
+  return std::min(probed_cells, centers_.size() / dimensions_);
+}
+
+void Palette::find_probes() {
   const PointBlocks centers(centers_, dimensions_);
+  const std::size_t cells = centers_.size() / dimensions_;
+  probes_.resize(indices_.size() * probes());
+  ThreadPool pool;
+  pool.run((indices_.size() + rows_a_task - 1) / rows_a_task, [&](std::size_t task) {
+    std::vector<std::uint32_t> which(std::min(rows_a_task, indices_.size() - task * rows_a_task));
+    std::iota(which.begin(), which.end(), std::uint32_t(task * rows_a_task));
+    std::array<std::vector<float>, rows_at_once> scores;
+    std::array<float*, rows_at_once> out;
+    for (std::size_t r = 0; r < rows_at_once; ++r) {
+      scores[r].resize(centers.padded_count());
+      out[r] = scores[r].data();
+    }
+    std::vector<std::uint8_t> order(cells);
+    in_groups(vectors_, dimensions_, which, [&](const auto& group, const auto& places) {
+      centers.scores(group, out);
+      for (std::size_t r = 0; r < rows_at_once; ++r) {
+        std::iota(order.begin(), order.end(), std::uint8_t(0));
+        const auto end = order.begin() + std::ptrdiff_t(probes());
+        std::partial_sort(order.begin(), end, order.end(), [&](std::uint8_t a, std::uint8_t b) {
+          return scores[r][a] < scores[r][b] || (scores[r][a] == scores[r][b] && a < b);
+        });
+        std::copy(order.begin(), end,
+                  probes_.begin() + std::ptrdiff_t(which[places[r]] * probes()));
+      }
+    });
+  });
+}
+
+void Palette::assign() {
+  const std::size_t cells = cells_.size() - 1;
   std::vector<PointBlocks> blocks;
   for (std::size_t c = 0; c < cells; ++c)
     blocks.emplace_back(std::span(entries_).subspan(cells_[c] * dimensions_,
@@ -273,15 +221,9 @@ void Palette::assign() {
     const std::size_t count = std::min(rows_a_task, indices_.size() - first);
     // The rows that probe each cell, so that its entries stay in the cache.
     std::vector<std::vector<std::uint32_t>> probing(cells);
-    std::vector<float> scores(cells);
-    std::vector<std::uint32_t> order(cells);
-    for (std::size_t i = first; i < first + count; ++i) {
-      centers.scores_of(&vectors_[i * dimensions_], scores);
-      std::iota(order.begin(), order.end(), 0u);
-      std::partial_sort(order.begin(), order.begin() + std::ptrdiff_t(probes), order.end(),
-                        [&](std::uint32_t a, std::uint32_t b) { return scores[a] < scores[b]; });
-      for (std::size_t p = 0; p < probes; ++p) probing[order[p]].push_back(std::uint32_t(i));
-    }
+    for (std::size_t i = first; i < first + count; ++i)
+      for (std::size_t p = 0; p < probes(); ++p)
+        probing[probes_[i * probes() + p]].push_back(std::uint32_t(i));
     std::vector<PointBlocks::Nearest> nearest(count);
     for (std::size_t c = 0; c < cells; ++c)
       if (!probing[c].empty())

@@ -34,13 +34,16 @@ class Palette {
 
  private:
   void divide(std::size_t size);
+  void find_probes();
+  std::size_t probes() const;
   void assign();
   void move_entries();
 
   std::span<const float> vectors_;
   std::size_t dimensions_;
   std::span<const float> weights_;
-  std::vector<float> centers_;        // of the cells
+  std::vector<float> centers_;        // of the cells: at most 256
+  std::vector<std::uint8_t> probes_;  // of each row: the nearest cells, nearest first
   std::vector<std::uint32_t> cells_;  // of each entry: first entry of each cell, and the end
   std::vector<float> entries_;
   std::vector<std::uint32_t> indices_;

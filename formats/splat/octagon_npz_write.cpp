@@ -16,7 +16,7 @@ namespace tureen {
 namespace {
 
 constexpr std::size_t written_corners = 8, written_faces = 6;
-/// Where readers look for the corners if nobody names Q: at 2 standard deviations.
+/// The square of the corners' distance in standard deviations: the Q that readers assume.
 constexpr double written_q = 4;
 
 /// The bytes of an .npy file, version 1.0: rows of `columns` values of the type `descr`.

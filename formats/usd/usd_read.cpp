@@ -21,6 +21,8 @@ namespace {
 
 constexpr std::string_view usda_magic = "#usda", usdc_magic = "PXR-USDC";
 constexpr int max_prim_depth = 64;
+/// Of a prim: its children multiply them, so many would take time in the square of the file.
+constexpr std::size_t max_transforms = 64;
 
 /// What the reader knows of a prim.
 struct UsdPrim {
@@ -73,12 +75,12 @@ class UsdReader {
     }
   }
 
-  /// A prim, or a property of `prim`.
+  /// A prim, or a property of `prim`. `parent`: the place of its parent, or of `prim`'s parent.
   void read_statement(const glm::dmat4& parent, int depth, UsdPrim* prim) {
     const std::string_view first = text_.word();
     if (first == "def" || first == "over" || first == "class") {
       const bool outside = std::exchange(is_class_, is_class_ || first == "class");
-      read_prim(parent, depth);
+      read_prim(prim ? parent * local(*prim) : parent, depth);
       is_class_ = outside;
       return;
     }
@@ -125,8 +127,7 @@ class UsdReader {
     // Children need the prim's place, which its properties give; they come first in practice.
     while (!text_.take('}')) {
       if (!text_.next()) text_.fail("the file ends within the prim \"" + prim.name + "\"");
-      prim.world = parent * local(prim);
-      read_statement(prim.world, depth + 1, &prim);
+      read_statement(parent, depth + 1, &prim);
     }
     prim.world = parent * local(prim);
     if (prim.is_field() && !is_class_) add_field(prim);
@@ -165,11 +166,13 @@ class UsdReader {
     }
   }
 
-  static void read_order(std::string_view value, UsdPrim& prim) {
+  void read_order(std::string_view value, UsdPrim& prim) const {
     prim.order.clear();
     for (std::size_t at = value.find('"'); at != value.npos;) {
       const std::size_t end = value.find('"', at + 1);
       if (end == value.npos) break;
+      if (prim.order.size() == max_transforms)
+        text_.fail("a prim has more than " + std::to_string(max_transforms) + " transforms");
       prim.order.emplace_back(value.substr(at + 1, end - at - 1));
       at = value.find('"', end + 1);
     }

@@ -2,8 +2,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <glm/geometric.hpp>
-#include <glm/gtc/matrix_transform.hpp>
+#include <glm/mat4x4.hpp>
 #include <optional>
 #include <set>
 #include <utility>
@@ -14,6 +13,7 @@
 #include "base/output.hpp"
 #include "formats/archive/zip_writer.hpp"
 #include "formats/usd/usd.hpp"
+#include "scene/similarity.hpp"
 
 namespace tureen {
 
@@ -116,14 +116,6 @@ std::string layer_text(const Layer& layer, const std::string& name) {
   return text + "    }\n";
 }
 
-/// The rotation that turns `up` to y.
-glm::dmat4 upright(const glm::dvec3& up) {
-  const glm::dvec3 axis = glm::cross(up, glm::dvec3(0, 1, 0));
-  if (glm::length(axis) > 1e-9)  // below, up is y or -y up to the rounding of floats
-    return glm::rotate(glm::dmat4(1), std::acos(std::clamp(up.y, -1.0, 1.0)), glm::normalize(axis));
-  return up.y > 0 ? glm::dmat4(1) : glm::dmat4(glm::dmat3(1, 0, 0, 0, -1, 0, 0, 0, -1));
-}
-
 std::vector<std::string> usd_losses(const Scene& scene) {
   std::vector<std::string> lost;
   for (const Layer& layer : scene.layers) {
@@ -154,7 +146,9 @@ std::vector<std::string> write_usd(const Scene& scene, const std::filesystem::pa
   std::string text =
       std::string("#usda 1.0\n(\n    defaultPrim = \"World\"\n    metersPerUnit = 1\n") +
       "    upAxis = \"" + (is_z_up ? "Z" : "Y") + "\"\n)\n\ndef Xform \"World\"\n{\n";
-  if (!is_z_up) text += transform_text(upright(glm::dvec3(scene.info.up)), "    ");
+  if (!is_z_up)
+    text += transform_text(
+        glm::dmat4(rotation_between(glm::dvec3(scene.info.up), glm::dvec3(0, 1, 0))), "    ");
   Output output(path);
   const bool is_archive = extension_of(path) == ".usdz";
   std::set<std::string> names;

@@ -18,9 +18,8 @@ struct ConversionLoss {
 /// Whether both scenes have only splats, so that tiles draw them.
 bool is_measurable(const Scene& scene);
 
-/// Draws 16 views of both scenes on the processor: up to 8 recorded cameras of `before`, and the
-/// others around it, half of them at a third of the distance. At most 800 pixels a side. `progress`
-/// gets the fraction done and may throw to cancel. Throws the errors of drawing.
+/// Draws 16 survey_views() of `before` of both scenes on the processor, of at most 800 pixels a
+/// side. `progress` gets the fraction done and may throw to cancel. Throws the errors of drawing.
 ConversionLoss conversion_loss(const Scene& before, const Scene& after,
                                const std::function<void(double)>& progress);
 

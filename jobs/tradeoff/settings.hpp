@@ -53,7 +53,7 @@ std::vector<QualitySetting> drawing_settings(const TriangleSoup& soup,
                                              std::span<const std::uint64_t> visible_pixels);
 
 /// The same for splats: their order and number, and for windows opaque triangles. `weights` is the
-/// contribution of each splat to the views; without, the number does not vary.
+/// weights of splat_use(); without, the number does not vary.
 std::vector<QualitySetting> drawing_settings(const Splats& splats,
                                              std::span<const std::uint64_t> weights);
 

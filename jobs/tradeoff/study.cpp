@@ -3,15 +3,12 @@
 #include <cassert>
 #include <cmath>
 #include <iterator>
-#include <numeric>
 
 #include "jobs/timing/benchmark.hpp"
 #include "jobs/tradeoff/measurer.hpp"
+#include "jobs/visibility/splat_use.hpp"
 #include "jobs/visibility/visibility_count.hpp"
-#include "runtime/passes/pass.hpp"
-#include "scene/clip_range.hpp"
 #include "splatting/layer.hpp"
-#include "splatting/tiles/tile_renderer.hpp"
 
 namespace tureen::tradeoff {
 
@@ -47,36 +44,6 @@ RenderError ideal_error(const std::vector<ImageF>& reference, bool with_flip) {
   return error_between(reference, as_shown(reference), with_flip);
 }
 
-/// For each splat, the sum over all pixels of the views of alpha times the transmittance of the
-/// splats in front, in millionths: its share of the images, whatever its colour. `world_from_layer`
-/// as Layer has it. `progress` is called with the fraction done, 0..1, and may throw.
-std::vector<std::uint64_t> splat_weights(const Splats& splats, const glm::dmat4& world_from_layer,
-                                         std::span<const Camera> views,
-                                         const std::function<void(double)>& progress) {
-  std::vector<std::uint32_t> all(count(splats));
-  std::iota(all.begin(), all.end(), 0u);
-  const std::vector<std::uint32_t> drawn = splatting::without_nan(splats, all);
-  const std::unique_ptr<splatting::Layer> layer = splatting::make_layer(
-      splatting::layer_data(splats, splats.profile, drawn, splats.color.degree));
-  splatting::TileRenderer renderer({});
-  std::vector<double> weights(drawn.size());
-  const LayerPlace placed{bounds(splats), world_from_layer};
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    const ClipRange range = clip_range({&placed, 1}, views[i], DepthStorage::reversed_float);
-    const FrameCamera camera = camera_in_layer(views[i], world_from_layer, range);
-    renderer.add_weights({layer.get(),
-                          splatting::image_view(camera.camera, camera.eye, camera.range.near,
-                                                splats.profile, camera.camera),
-                          camera.scale},
-                         weights);
-    if (progress) progress(double(i + 1) / double(views.size()));
-  }
-  std::vector<std::uint64_t> result(all.size());
-  for (std::size_t i = 0; i < drawn.size(); ++i)
-    result[drawn[i]] = std::uint64_t(std::llround(1e6 * weights[i]));
-  return result;
-}
-
 std::vector<QualitySetting> settings_of(const StudyScene& scene, const StudyOptions& options) {
   const Layer& layer = only_layer(scene.scene);
   const auto* soup = std::get_if<TriangleSoup>(&layer.primitives);
@@ -85,7 +52,8 @@ std::vector<QualitySetting> settings_of(const StudyScene& scene, const StudyOpti
     const auto& splats = std::get<Splats>(layer.primitives);
     std::vector<std::uint64_t> weights;
     if (splatting::has_layer_for(splats))
-      weights = splat_weights(splats, layer.world_from_layer, scene.counting, progress);
+      weights =
+          splat_use(splats, layer.world_from_layer, scene.counting, progress).weights;
     return drawing_settings(splats, weights);
   }
   return drawing_settings(*soup, count_visible_pixels(scene.context, *soup, origin_of(layer),

@@ -92,7 +92,8 @@ FullPhotographs full_photographs(const std::filesystem::path& dataset, DatasetOp
 FullPhotographs full_photographs(const std::vector<Photograph>& train) {
   FullPhotographs full;
   for (const Photograph& each : train) full.cameras.push_back(each.camera);
-  for (const glm::u8vec4& pixel : train.front().image.pixels) full.of_an_object |= pixel.a < 255;
+  const Image8 first = train.front().image();
+  for (const glm::u8vec4& pixel : first.pixels) full.of_an_object |= pixel.a < 255;
   return full;
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/threads/thread_pool.hpp"
 #include "scene/image_source.hpp"
+#include "scene/layer_place.hpp"
 #include "scene/scene.hpp"
 #include "splatting/tiles/tile_renderer.hpp"
 

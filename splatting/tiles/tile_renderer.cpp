@@ -144,13 +144,15 @@ void TileRenderer::draw_tile(std::span<const LayerInView> layers, std::span<cons
   });
 }
 
-void TileRenderer::add_weights(const LayerInView& layer, std::span<double> weights) {
+TileRenderer::Overdraw TileRenderer::add_weights(const LayerInView& layer,
+                                                 std::span<double> weights) {
   assert(weights.size() == layer.layer->count());
   const std::span layers(&layer, 1);
   sort(layers);
   lists_.begin(layer.view.width, layer.view.height);
   for (const Run& run : runs_) layer.layer->list(run.begin, run.end, 0, lists_);
   const auto hits = std::make_unique<TileHits>();
+  Overdraw overdraw;
   for (int row = 0; row < lists_.rows(); ++row) {
     lists_.finish(row);
     for (int column = 0; column < lists_.columns(); ++column) {
@@ -163,9 +165,11 @@ void TileRenderer::add_weights(const LayerInView& layer, std::span<double> weigh
         if (pixels.x + at.column >= layer.view.width || pixels.y + at.row >= layer.view.height)
           continue;
         float transmittance = 1;
+        overdraw.pixels += hits->at[std::size_t(i)].empty() ? 0 : 1;
         for (const SplatHit& hit : hits->at[std::size_t(i)]) {
           const float behind = transmittance * (1 - hit.alpha);
           if (behind < hit.stop) break;
+          ++overdraw.blended;
           weights[orders_.front()[hit.place]] += double(transmittance - behind);
           transmittance = behind;
         }
@@ -173,6 +177,7 @@ void TileRenderer::add_weights(const LayerInView& layer, std::span<double> weigh
       hits->clear();
     }
   }
+  return overdraw;
 }
 
 }  // namespace tureen::splatting

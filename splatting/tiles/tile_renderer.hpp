@@ -47,10 +47,15 @@ class TileRenderer {
   void draw(std::span<const LayerInView> layers, std::span<const float> depths, const RowSink& sink,
             BlendOrder order = BlendOrder::centers);
 
+  /// What add_weights() has counted in an image.
+  struct Overdraw {
+    std::uint64_t pixels = 0;   // with at least one splat
+    std::uint64_t blended = 0;  // pairs of such a pixel and a splat before the pixel is saturated
+  };
   /// Adds to weights[i] what splat i of the layer contributes to the image: the sum over the pixels
   /// of its alpha times the transmittance of the splats in front. Nothing opaque is behind. Uses
   /// one thread. Slower than draw().
-  void add_weights(const LayerInView& layer, std::span<double> weights);
+  Overdraw add_weights(const LayerInView& layer, std::span<double> weights);
 
  private:
   /// Consecutive splats of one layer in the order, by their places in orders_[layer].

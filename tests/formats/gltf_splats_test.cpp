@@ -18,9 +18,12 @@
 #include "formats/gltf/gltf_remarks.hpp"
 #include "formats/gltf_file.hpp"
 #include "formats/scene_file.hpp"
+#include "formats/splat/spz.hpp"
 #include "scene/spherical_harmonics.hpp"
 #include "tests/formats/format_testing.hpp"
 #include "tests/formats/glb_builder.hpp"
+#include "tests/formats/splat/spz_fixture.hpp"
+#include "tests/formats/truncation.hpp"
 #include "tests/support/errors.hpp"
 
 namespace tureen {
@@ -138,6 +141,93 @@ TEST(GltfSplats, BesideTrianglesAreLayersOfTheirOwn) {
   EXPECT_EQ(std::get<TriangleSoup>(scene.layers[0].primitives).triangles.size(), 1u);
   EXPECT_EQ(count(splats_of(scene, 1)), 2u);
   EXPECT_EQ(count(splats_of(scene, 2)), 3u);
+}
+
+/// A primitive whose splats are this SPZ file.
+json& add_spz(GlbBuilder& b, const std::string& spz, const json& method) {
+  json& primitive = b.primitive(json::object());
+  primitive["mode"] = 0;
+  primitive["extensions"][khr] = method;
+  primitive["extensions"][khr]["extensions"]["KHR_gaussian_splatting_compression_spz_2"] = {
+      {"bufferView", b.view(spz.data(), spz.size())}};
+  b.document["extensionsUsed"] = {khr, "KHR_gaussian_splatting_compression_spz_2"};
+  b.document["extensionsRequired"] = b.document["extensionsUsed"];
+  return primitive;
+}
+
+const json khr_method = {{"kernel", "ellipse"}, {"colorSpace", "srgb_rec709_display"}};
+
+glm::dvec3 world_center(const Scene& scene) {
+  return scene.layers.at(0).world_from_layer * glm::dvec4(gaussians_of(scene).centers.at(0), 1);
+}
+
+TEST(GltfSplats, InSpzFilesAreTurnedAsTheDraftSpecifies) {
+  for (const unsigned version : {2u, 3u, 4u}) {
+    const std::string spz = test::spz_splat(version, 3).bytes();
+    GlbBuilder b;
+    // Accessors of the result, which have no bytes.
+    add_spz(b, spz, khr_method)["attributes"]["POSITION"] =
+        b.add_accessor({{"componentType", 5126}, {"count", 1}, {"type", "VEC3"}});
+    b.document["nodes"][0]["translation"] = {10, 20, 30};
+    b.document["nodes"][0]["name"] = "one";
+    const Scene scene = read(b);
+    ASSERT_EQ(scene.layers.size(), 1u) << version;
+    EXPECT_EQ(scene.layers[0].name, "one");
+    // Stored as (1.5, -2.25, 0.5) right, up, back; then left, up, front, then the node's place.
+    EXPECT_EQ(world_center(scene), glm::dvec3(8.5, 17.75, 29.5));
+    EXPECT_THAT(scene.info.remarks,
+                ElementsAre(Remark{&remarks::spz_axes_of_draft,
+                                   {{"extension", "KHR_gaussian_splatting_compression_spz_2"}}}));
+    EXPECT_EQ(scene.info.up, glm::vec3(0, 1, 0));
+    // What differs from the SPZ file alone is the place.
+    Input input = test::input_of(spz);
+    const Scene alone = read_spz(input);
+    EXPECT_EQ(splats_of(scene).color.coefficients, splats_of(alone).color.coefficients);
+    EXPECT_EQ(gaussians_of(scene).rotations, gaussians_of(alone).rotations);
+    EXPECT_EQ(gaussians_of(scene).scales, gaussians_of(alone).scales);
+  }
+}
+
+TEST(GltfSplats, InSpzFilesOfOlderWritersKeepTheirAxes) {
+  GlbBuilder b;
+  add_spz(b, test::spz_splat(2, 1).bytes(), json::object());
+  const Scene scene = read(b);
+  EXPECT_EQ(world_center(scene), glm::dvec3(1.5, -2.25, 0.5));
+  EXPECT_THAT(scene.info.remarks, ElementsAre(Remark{&remarks::spz_axes_stored}));
+}
+
+TEST(GltfSplats, InSpzFilesAreRejectedWithTheirPlace) {
+  const auto refusal = [](auto&& change) {
+    GlbBuilder b;
+    const std::string spz = test::spz_splat(3, 0).bytes();
+    change(b, add_spz(b, spz, khr_method)["extensions"][khr]);
+    return error_of([&] { read(b); });
+  };
+  constexpr char spz_2[] = "KHR_gaussian_splatting_compression_spz_2";
+  EXPECT_THAT(refusal([&](auto&, json& e) { e["extensions"][spz_2]["bufferView"] = "a"; }),
+              test::ErrorIn("splats.glb", spz_2, "bufferView"));
+  EXPECT_THAT(refusal([&](auto&, json& e) { e["extensions"][spz_2]["bufferView"] = 7; }),
+              test::ErrorIn("splats.glb", 7));
+  EXPECT_THAT(refusal([&](auto&, json& e) { e["kernel"] = "box"; }),
+              test::ErrorIn("splats.glb", "box"));
+  EXPECT_THAT(refusal([&](auto& b, json&) { b.document["bufferViews"][0]["byteLength"] = 20; }),
+              test::ErrorIn("splats.glb, the SPZ file in bufferViews[0]"));
+}
+
+TEST(GltfSplats, InSpzFilesSurviveDamage) {
+  GlbBuilder b;
+  add_spz(b, test::spz_splat(4, 1).bytes(), khr_method);
+  const std::vector<std::byte> bytes = b.glb();
+  const auto read_bytes = [](std::span<const std::byte> damaged) {
+    Input input = Input::memory("a.glb", damaged);
+    const Scene scene = read_gltf_or_glb(input, {});
+    for (const Layer& layer : scene.layers) {
+      const auto* splats = std::get_if<Splats>(&layer.primitives);
+      EXPECT_TRUE(!splats || !defect(*splats));
+    }
+  };
+  EXPECT_EQ(test::survive_truncation(bytes, read_bytes).read, 0u);
+  EXPECT_GT(test::survive_damage(bytes, read_bytes).refused, 0u);
 }
 
 TEST(GltfSplats, ThatCannotBeDrawnAreDropped) {

@@ -12,8 +12,10 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "base/output.hpp"
+#include "formats/common/format_remarks.hpp"
 #include "formats/gltf/gltf_remarks.hpp"
 #include "formats/gltf_file.hpp"
 #include "formats/scene_file.hpp"
@@ -501,6 +503,62 @@ TEST_F(Gltf, SurvivesTruncationAndDamage) {
       damaged[i] = bytes[i];
     }
   EXPECT_GT(survival.refused, bytes.size());
+}
+
+/// A GLB of these chunks. If it `pads`, zeros follow each, which its length does not count.
+std::vector<std::byte> glb_of_chunks(
+    const std::vector<std::pair<std::uint32_t, std::string>>& chunks, bool pads) {
+  std::string body;
+  const auto add = [&](std::uint64_t value) {
+    for (int i = 0; i < 4; ++i) body += char(value >> (8 * i) & 255);
+  };
+  for (const auto& [type, content] : chunks) {
+    add(content.size());
+    add(type);
+    body += content;
+    if (pads) body.append((4 - content.size() % 4) % 4, '\0');
+  }
+  const std::string chunks_of_file = std::exchange(body, "glTF");
+  add(2);
+  add(12 + chunks_of_file.size());
+  body += chunks_of_file;
+  const auto bytes = std::as_bytes(std::span(body));
+  return {bytes.begin(), bytes.end()};
+}
+
+TEST_F(Gltf, ChunksOfOddLengthAreReadWithARemark) {
+  GlbBuilder b;
+  b.triangle();
+  b.document["buffers"] = nlohmann::json::array({{{"byteLength", b.bytes().size()}}});
+  std::string text = b.document.dump();
+  while (text.size() % 4 != 3) text += ' ';
+  const std::string binary(reinterpret_cast<const char*>(b.bytes().data()), b.bytes().size());
+  for (const bool pads : {true, false})
+    for (const std::string& end : {std::string(), std::string("x")}) {
+      const auto bytes = glb_of_chunks({{0x4E4F534A, text}, {0x004E4942, binary + end}}, pads);
+      const Scene scene = read_gltf_or_glb(save("odd.glb", bytes));
+      EXPECT_EQ(only_soup(scene).triangles.size(), 1u);
+      EXPECT_THAT(scene.info.remarks, ::testing::Contains(Remark{&remarks::chunks_unaligned}));
+      EXPECT_EQ(test::survive_truncation(bytes,
+                                         [&](std::span<const std::byte> damaged) {
+                                           read_gltf_or_glb(save("odd.glb", damaged));
+                                         })
+                    .read,
+                0u);
+    }
+}
+
+TEST_F(Gltf, ExtensionsThatAreNotDrawnAreNamed) {
+  GlbBuilder b;
+  b.triangle();
+  b.document["extensionsUsed"] = {"KHR_lights_punctual", "KHR_materials_unlit",
+                                  "KHR_materials_clearcoat"};
+  const Scene scene = read_gltf_or_glb(save("lit.glb", b.glb()));
+  EXPECT_THAT(scene.info.remarks,
+              ::testing::Contains(Remark{
+                  &remarks::extensions_dropped,
+                  {{"extensions",
+                    std::vector<std::string>{"KHR_lights_punctual", "KHR_materials_clearcoat"}}}}));
 }
 
 TEST_F(Gltf, DispatchesOurOwnFiles) {

@@ -14,6 +14,7 @@
 #include "jobs/bench/bench_json.hpp"
 #include "jobs/bench/web_bench.hpp"
 #include "tests/formats/dataset/dataset_fixture.hpp"
+#include "tests/formats/glb_builder.hpp"
 #include "tests/formats/splat/ksplat_fixture.hpp"
 #include "tests/formats/splat/octagon_fixture.hpp"
 #include "tests/formats/splat/sog_fixture.hpp"
@@ -172,6 +173,20 @@ std::string foreign_surfaces() {
 })";
 }
 
+/// A splat in an SPZ file.
+Content spz_in_gltf() {
+  test::GlbBuilder b;
+  const std::string spz = test::spz_splat(3, 1).bytes();
+  const int view = b.view(spz.data(), spz.size());
+  nlohmann::json& primitive = b.primitive(nlohmann::json::object());
+  primitive["mode"] = 0;
+  primitive["extensions"]["KHR_gaussian_splatting"] = {
+      {"kernel", "ellipse"},
+      {"colorSpace", "srgb_rec709_display"},
+      {"extensions", {{"KHR_gaussian_splatting_compression_spz_2", {{"bufferView", view}}}}}};
+  return b.glb();
+}
+
 void add_text_meshes(Collection& all) {
   all.add("off", "faces.off",
           "OFF # a comment\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0.5\n3 0 1 2 255 0 17\n"
@@ -210,6 +225,12 @@ void add_text_meshes(Collection& all) {
   all.add("obj", "quad.obj",
           "# a quad\no thing\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 -1e2\nvt 0.25 0.75\nvt 1 0.75\n"
           "vn 0 0 1\ns off\nf 1/1 2/2 3/1/1 4/2/1\nf -1/-1 -2/-2 -3/-1\n");
+  all.add("obj", "colors.obj",
+          "mtllib a.mtl\ng a\nusemtl red\nv 0 0 0 1 0 0\nv 1 0 0 .5 1 0\nv 1 1 0\nv 0 1 0 1\n"
+          "vt 0\nf 1 2 \\\n3//1 4/1\nl 1 2\nusemtl a b\nf -1 -2 -3\n");
+  all.add("obj", "red.mtl",
+          "newmtl red\nKd 1 0 0\nd 0.4\nmap_Kd -s 1 2 -clamp on a b.png\nnewmtl a b\nKd .5\n"
+          "Tr 0.1\nmap_d -o 1 a b.png\nKd xyz 1 1 1\n");
 }
 
 // ---- Splats
@@ -500,6 +521,7 @@ std::vector<Fixture> made_fixtures() {
   add_glb(all);
   all.add("gltf", "foreign.gltf", foreign_gltf());
   all.add("gltf", "surfaces.gltf", foreign_surfaces());
+  all.add("gltf", "spz.glb", spz_in_gltf());
   add_text_meshes(all);
   add_splats(all);
   add_torch(all);

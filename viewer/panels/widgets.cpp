@@ -236,7 +236,7 @@ bool enter_pressed() {
   // Not in the frame in which a dialog opens: Enter in the dialog before may have opened it.
   return !ImGui::IsWindowAppearing() &&
          (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false) ||
-          ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_KeypadEnter), false));
+          ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_KeyPadEnter), false));
 }
 
 Dialog::Dialog(const char* title, bool open) {

@@ -108,6 +108,9 @@ TEST(Usd, FaultsNameTheLineAndTheWayOut) {
               ErrorIn("a.usda", "constant surflets"));
   EXPECT_THAT(changed("[\"xformOp:scale\"]", "[\"xformOp:rotateX\"]"),
               ErrorIn("a.usda", "xformOp:rotateX"));
+  std::string many = "[\"xformOp:scale\"";
+  for (int i = 0; i < 64; ++i) many += ", \"xformOp:scale\"";
+  EXPECT_THAT(changed("[\"xformOp:scale\"]", many + "]"), ErrorIn("a.usda", 64));
   EXPECT_THAT(changed("(2, 2, 2)", "(2, 2, 1)"), ErrorIn("a.usda", "stretches"));
   EXPECT_THAT(error_of([] { read("PXR-USDC\0\0"); }), ErrorIn("a.usda", "usdcat"));
   EXPECT_THAT(error_of([] { read("#usda 1.0\ndef Mesh \"a\" { int[] n = [3] }"); }),
