@@ -61,6 +61,12 @@ struct Format {
   bool is_quantised = false;                        // rounds splats so that images show it
 };
 
+#ifdef __EMSCRIPTEN__
+constexpr bool in_browser = true;
+#else
+constexpr bool in_browser = false;
+#endif
+
 /// A writer without options. Without the writers, the page's own program is 4 % smaller.
 #ifdef TUREEN_FEW_FORMATS
 template <auto Write>
