@@ -59,6 +59,7 @@ struct Format {
                                     const WriteOptions&) = nullptr;
   glm::vec3 (*assumed_up)(const Scene&) = nullptr;  // null: files store the up axis
   bool is_quantised = false;                        // rounds splats so that images show it
+  bool holds_layers = false;                        // several
 };
 
 #ifdef __EMSCRIPTEN__
@@ -108,7 +109,8 @@ const std::vector<Format>& formats() {
        .written_extensions = {".glb"},
        .recognises = [](const Candidate& c) { return !c.is_folder && is_gltf(c.head); },
        .read = read_gltf_or_glb,
-       .write = write_glb},
+       .write = write_glb,
+       .holds_layers = true},
       {.name = "OFF",
        .description = "triangles with one colour per face or vertex, as text",
        .read_extensions = {".off", ".coff"},
@@ -157,7 +159,8 @@ const std::vector<Format>& formats() {
        .written_extensions = {".usda", ".usdz"},
        .recognises = [](const Candidate& c) { return !c.is_folder && is_usd(c.head); },
        .read = read_usd,
-       .write = natively<write_usd>},
+       .write = natively<write_usd>,
+       .holds_layers = true},
       {.name = "SOG",
        .description = "Gaussians as lossless WebP images, also streamed with levels of detail; a "
                       "folder, its meta.json or lod-meta.json, or an archive",
@@ -388,7 +391,8 @@ std::vector<FormatInfo> known_formats() {
                      {format.written_extensions.begin(), format.written_extensions.end()},
                      format.is_folder,
                      format.read != nullptr,
-                     format.write != nullptr});
+                     format.write != nullptr,
+                     format.holds_layers});
   return infos;
 }
 

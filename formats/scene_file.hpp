@@ -46,6 +46,7 @@ struct FormatInfo {
   bool is_folder = false;  // a folder, in addition to any extensions
   bool can_read = false;
   bool can_write = false;
+  bool holds_layers = false;  // several
 };
 
 /// Every format that read_scene or write_scene supports.

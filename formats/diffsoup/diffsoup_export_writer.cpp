@@ -283,6 +283,7 @@ std::vector<std::string> write_diffsoup_export(const Scene& scene, const fs::pat
     notes.emplace_back("the scene's origin was added to its vertices, which rounds them");
   }
   if (!scene.cameras.empty()) notes.emplace_back("cameras are not kept");
+  if (scene.first_view) notes.emplace_back("the first view is not kept");
   if (!soup->normals.empty()) notes.emplace_back("normals are not kept");
   if (layer.material) notes.emplace_back("mirrors and glass are not kept");
 

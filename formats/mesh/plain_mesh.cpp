@@ -151,6 +151,7 @@ PlainMesh::PlainMesh(const Scene& scene, const std::string& format, const glm::v
   if (scene.info.background != glm::vec3(0.0f))
     lost.push_back(format + " holds no background colour.");
   if (!scene.cameras.empty()) lost.push_back(format + " holds no cameras.");
+  if (scene.first_view) lost.push_back(format + " holds no first view.");
   if (layer.material) lost.push_back(format + " holds no mirrors and no glass.");
 }
 

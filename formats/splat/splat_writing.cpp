@@ -35,6 +35,7 @@ std::vector<std::string> splat_losses(const Scene& scene, const Layer& layer,
   if (scene.info.background != glm::vec3(0.0f))
     lost.push_back(format + " holds no background colour.");
   if (!scene.cameras.empty()) lost.push_back(format + " holds no cameras.");
+  if (scene.first_view) lost.push_back(format + " holds no first view.");
   return lost;
 }
 

@@ -129,6 +129,7 @@ std::vector<std::string> usd_losses(const Scene& scene) {
   lost.erase(std::unique(lost.begin(), lost.end()), lost.end());
   if (scene.info.background != glm::vec3(0.0f)) lost.push_back("USD holds no background colour.");
   if (!scene.cameras.empty()) lost.push_back("Cameras are not written to USD.");
+  if (scene.first_view) lost.push_back("USD holds no first view.");
   return lost;
 }
 

@@ -82,8 +82,10 @@ void welcome_overlay(State& state) {
   ImGui::Spacing();
   heading("Supported formats");
   aside(
-      "Scenes: .glb, .gltf, .off, .ply, .splat, .spz, .npz, .obj, .pt, DiffSoup exports, "
-      "MobileNeRF models. Photographs: COLMAP, transforms.json.");
+      "Scenes: .glb, .gltf, .off, .ply, .splat, .spz, .sog, .ksplat, .usda, .usdz, .npz, .obj, "
+      ".pt, "
+      "DiffSoup exports, MobileNeRF models. Photographs: with cameras of COLMAP, Bundler or "
+      "transforms.json; a folder or a video without.");
   ImGui::End();
 }
 

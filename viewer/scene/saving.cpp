@@ -11,6 +11,7 @@
 #include "formats/glb/glb_container.hpp"
 #include "formats/scene_file.hpp"
 #include "formats/tureen_glb/tureen_glb.hpp"
+#include "scene/scene_remarks.hpp"
 #include "viewer/names.hpp"
 
 namespace tureen::viewer {
@@ -21,10 +22,23 @@ namespace fs = std::filesystem;
 
 bool is_glb_name(const fs::path& file) { return extension_of(file) == ".glb"; }
 
-/// The scene without primitives.
+/// Whether the format of this name stores several layers.
+bool holds_layers(const fs::path& file) {
+  const std::vector<FormatInfo> formats = known_formats();
+  return std::any_of(formats.begin(), formats.end(), [&](const FormatInfo& format) {
+    const auto& extensions = format.written_extensions;
+    return format.holds_layers &&
+           std::find(extensions.begin(), extensions.end(), extension_of(file)) != extensions.end();
+  });
+}
+
+/// The scene without primitives. Remarks about combining files do not concern the saved one.
 Scene header_of(const SceneSource& source) {
   Scene scene = *source.scene;
   const Document& document = source.document;
+  std::erase_if(scene.info.remarks, [](const Remark& remark) {
+    return remark.kind == &remarks::settings_dropped || remark.kind == &remarks::turned_upright;
+  });
   scene.layers.clear();
   for (const DocumentLayer& layer : document.layers)
     scene.layers.push_back(
@@ -85,11 +99,12 @@ fs::path proposed_file(const SceneSource& source) {
 }
 
 std::string written_extensions(const SceneSource& source) {
-  if (source.document.layers.size() > 1) return "Several layers are stored as .glb.";
+  const bool has_layers = source.document.layers.size() > 1;
   std::string list;
   for (const FormatInfo& format : known_formats())
     for (const std::string& extension : format.written_extensions)
-      if (extension != ".glb") list += (list.empty() ? "" : ", ") + extension;
+      if (extension != ".glb" && (format.holds_layers || !has_layers))
+        list += (list.empty() ? "" : ", ") + extension;
   return ".glb stores everything; other formats: " + list + ".";
 }
 
@@ -98,8 +113,8 @@ std::string name_defect(const SceneSource& source, const fs::path& file) {
     return "The name needs an extension: .glb stores everything.";
   try {
     require_written_format(file);
-    if (source.document.layers.size() > 1 && !is_glb_name(file))
-      return "Only .glb stores several layers: choose it, or remove all other layers.";
+    if (source.document.layers.size() > 1 && !holds_layers(file))
+      return "This format stores one layer: choose .glb, or remove all other layers.";
     writable_file(file);
   } catch (const Error& error) {
     return error.what();
