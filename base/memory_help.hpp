@@ -4,8 +4,7 @@
 namespace tureen {
 
 inline constexpr const char* max_memory_help =
-    "memory limit for reading each scene or dataset, 4 GiB by default; photographs beyond half of "
-    "it "
-    "go to a temporary file (in TMPDIR, or /var/tmp), a scene that needs more is rejected";
+    "memory limit per scene or dataset, 4 GiB by default. Photographs beyond half of it go to a "
+    "temporary file in TMPDIR or /var/tmp; larger scenes are rejected";
 
 }  // namespace tureen

@@ -403,7 +403,7 @@ Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 4 no OpenGL conte
 }
 
 void add_trace(Command& program) {
-  Command command = program.add_command("trace", "Draw images by rays, with mirrors and glass");
+  Command command = program.add_command("trace", "Ray-trace images, with mirrors and glass");
   command.footer(
       R"(The short form of `tureen render --renderer trace`, which takes the same options. Splats are blended in their exact order on each ray. Materials of meshes
 are those that the file stores, or those of --material.

@@ -26,10 +26,10 @@ set(limits
   "lines docs/.* 150: a page is read in ten minutes"
 
   "code base 2540: fundamentals that no library has, the code for POSIX, and bytes in a temporary file (160)"
-  "code image 2730: images, in a file where memory is short, metrics, video files, and the decoder of lossless WebP (560)"
+  "code image 2734: images, in a file where memory is short, metrics, video files, and the decoder of lossless WebP (560)"
   "code scene 4900: the model, its edits, places as text"
   "code camera 1800: navigation, views around captures, paths along cameras"
-  "code formats 17800: a reader per format with its remarks, checked against hostile files; meshes of OBJ with materials and textures (330), palettes in vectors (110)"
+  "code formats 17824: a reader per format with its remarks, checked against hostile files; meshes of OBJ with materials and textures (330), palettes in vectors (110), near limits that a file loses, hints for full disks (24)"
   "code oracle 2210: the reference stays readable; light along rays, without a tree"
   "code splatting 3350: loops in vectors, per kernel, and of neurons in lanes"
   "code tracing 2250: a tree and a file per kernel, materials, images by rays, also in steps for the window"

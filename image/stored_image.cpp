@@ -20,6 +20,14 @@ Image8 StoredImage::operator()() const {
   return image;
 }
 
+void StoredImage::remove_alpha() {
+  if (is_opaque()) return;
+  if (!image_) return planes_.shorten(3 * pixels());
+  Image8 image = *image_;
+  for (glm::u8vec4& pixel : image.pixels) pixel.a = 255;
+  image_ = std::make_shared<const Image8>(std::move(image));
+}
+
 void StoredImage::move_to(const std::shared_ptr<ScratchFile>& file) {
   if (!image_) return;
   const std::size_t count = pixels();

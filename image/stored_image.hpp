@@ -23,11 +23,14 @@ class StoredImage {
   /// Whether all alpha is 255.
   bool is_opaque() const;
 
-  /// The image. Throws InputError if the file cannot be read.
+  /// A copy of the image, read from the file if it is there. Throws InputError if the file cannot
+  /// be read.
   Image8 operator()() const;
 
   /// Moves the pixels to the file, unless they are in one. Throws OutputError if the disk is full.
   void move_to(const std::shared_ptr<ScratchFile>& file);
+  /// Sets all alpha to 255. In the file this writes nothing: the plane of alpha is the last.
+  void remove_alpha();
   /// In the file: planes of width x height bytes, row 0 on top: red, green, blue and, unless the
   /// image is opaque, alpha. Empty for an image in memory.
   const StoredBytes& planes() const { return planes_; }

@@ -25,6 +25,7 @@ struct ToText {
 
 bool is_one(const RemarkValue& value) {
   if (const auto* list = std::get_if<std::vector<std::uint64_t>>(&value)) return list->size() == 1;
+  if (const auto* list = std::get_if<std::vector<std::string>>(&value)) return list->size() == 1;
   return value == RemarkValue(std::uint64_t(1));
 }
 

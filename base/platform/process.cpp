@@ -37,6 +37,12 @@ std::vector<char*> argv_of(const std::string& program, const std::vector<std::st
   throw std::system_error(reason, std::generic_category(), program);
 }
 
+/// A folder is not, although it has the same permission.
+bool is_executable(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return access(path.c_str(), X_OK) == 0 && std::filesystem::is_regular_file(path, ignored);
+}
+
 /// Both ends of a connection that child processes do not inherit, or -1 with errno. It is a socket,
 /// because a write to a socket can suppress SIGPIPE.
 std::array<int, 2> connection() {
@@ -135,8 +141,9 @@ Process::Process(const std::string& program, const std::vector<std::string>& arg
   pid_t process = -1;
   int reason = 0;
   // posix_spawn cannot ask for the signal; setpriv asks, and becomes the program.
+  // For a program that cannot be started it would end with a code of its own.
   if (options.ends_with_us && is_on_path("setpriv") &&
-      (program.find('/') != std::string::npos || is_on_path(program))) {
+      (program.find('/') != std::string::npos ? is_executable(program) : is_on_path(program))) {
     std::vector<std::string> words{"--pdeathsig", "KILL", program};
     words.insert(words.end(), arguments.begin(), arguments.end());
     reason = spawn.start(process, "setpriv", words);
@@ -258,8 +265,7 @@ bool is_on_path(const std::string& program) {
   while (!rest.empty()) {
     const std::string_view folder = rest.substr(0, rest.find(':'));
     rest.remove_prefix(std::min(rest.size(), folder.size() + 1));
-    if (!folder.empty() && access((std::filesystem::path(folder) / program).c_str(), X_OK) == 0)
-      return true;
+    if (!folder.empty() && is_executable(std::filesystem::path(folder) / program)) return true;
   }
   return false;
 }

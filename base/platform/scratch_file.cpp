@@ -16,7 +16,8 @@ namespace {
 
 [[noreturn]] void refuse_bytes(const char* what, int reason) {
   throw OutputError({scratch_folder().string()},
-                    what + (": " + std::generic_category().message(reason)), scratch_hint);
+                    what + (": " + std::generic_category().message(reason)),
+                    "TMPDIR names another folder");
 }
 
 }  // namespace
@@ -32,9 +33,9 @@ std::filesystem::path scratch_folder() {
 
 ScratchFile::ScratchFile() {
   std::string name = scratch_folder() / "tureen-XXXXXX";
-  file_ = mkstemp(name.data());
+  // A program that starts meanwhile does not inherit it.
+  file_ = mkostemp(name.data(), O_CLOEXEC);
   if (file_ < 0) refuse_bytes("no temporary file can be made here", errno);
-  fcntl(file_, F_SETFD, FD_CLOEXEC);
   unlink(name.c_str());
 }
 
@@ -45,8 +46,7 @@ std::uint64_t ScratchFile::append(std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
     const ssize_t count = pwrite(file_, bytes.data(), bytes.size(), off_t(size_));
     if (count < 0 && errno == EINTR) continue;
-    if (count <= 0)
-      refuse_bytes("the temporary file for photographs cannot grow", count < 0 ? errno : ENOSPC);
+    if (count <= 0) refuse_bytes("the temporary file cannot grow", count < 0 ? errno : ENOSPC);
     bytes = bytes.subspan(std::size_t(count));
     size_ += std::uint64_t(count);
   }
@@ -59,7 +59,7 @@ void ScratchFile::read(std::uint64_t place, std::span<std::byte> bytes) const {
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0)
       throw InputError({scratch_folder().string()},
-                       "the temporary file for photographs cannot be read: " +
+                       "the temporary file cannot be read: " +
                            std::generic_category().message(count < 0 ? errno : EIO));
     bytes = bytes.subspan(std::size_t(count));
     place += std::uint64_t(count);

@@ -31,11 +31,6 @@ class ScratchFile {
   std::uint64_t size_ = 0;
 };
 
-/// The way out where the folder is full or cannot be written.
-inline constexpr const char* scratch_hint =
-    "TMPDIR names another folder, --max-memory SIZE keeps more in memory, and --scale makes "
-    "photographs smaller";
-
 /// TMPDIR if it is set; else /var/tmp, which is on a disk where /tmp is often in memory.
 std::filesystem::path scratch_folder();
 

@@ -20,6 +20,14 @@ void StoredBytes::move_to(const std::shared_ptr<ScratchFile>& file) {
   memory_.reset();
 }
 
+void StoredBytes::shorten(std::size_t size) {
+  if (size >= size_) return;
+  if (memory_)
+    memory_ = std::make_shared<const std::vector<std::uint8_t>>(
+        memory_->begin(), memory_->begin() + std::ptrdiff_t(size));
+  size_ = size;
+}
+
 void StoredBytes::expect() const {
   if (file_) file_->expect(place_, size_);
 }

@@ -27,6 +27,8 @@ class StoredBytes {
   /// Appends the bytes to the file, unless they are in one, and frees the memory with its last
   /// copy. Throws OutputError if the disk is full.
   void move_to(const std::shared_ptr<ScratchFile>& file);
+  /// Drops all but the first `size` bytes; a file keeps them. Copies keep them, too.
+  void shorten(std::size_t size);
   /// Lets the system read ahead.
   void expect() const;
 

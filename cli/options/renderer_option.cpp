@@ -66,7 +66,7 @@ RendererChoice ray_renderer() { return {&rays}; }
 
 void add_samples_option(Command& command, RendererChoice& choice) {
   command.add_option("--samples N", choice.samples,
-                     "rays per pixel, jittered over the pixel; 1 by default; needs drawing by rays",
+                     "samples per pixel, jittered; default 1; needs --renderer trace",
                      between(1, 4096));
 }
 

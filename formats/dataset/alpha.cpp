@@ -41,18 +41,18 @@ AlphaUse alpha_of(const std::vector<AlphaCounts>& photographs) {
 
 void apply_alpha(AlphaMeaning meaning, Photograph& photograph) {
   if (meaning == AlphaMeaning::background || photograph.image.is_opaque()) return;
-  const std::shared_ptr<ScratchFile> file = photograph.file();
-  Image8 image = photograph.image();
   if (meaning == AlphaMeaning::mask) {
+    const Image8 image = photograph.image();
     std::vector<std::uint8_t> ignored = photograph.ignored();
     ignored.resize(image.pixels.size());
     for (std::size_t i = 0; i < ignored.size(); ++i) ignored[i] |= image.pixels[i].a < opaque_from;
     const auto count = std::size_t(std::ranges::count(ignored, 1));
-    if (count > 0 && count < ignored.size()) photograph.ignored = std::move(ignored);
+    if (count > 0 && count < ignored.size()) {
+      photograph.ignored = std::move(ignored);
+      if (photograph.file()) photograph.ignored.move_to(photograph.file());
+    }
   }
-  for (glm::u8vec4& pixel : image.pixels) pixel.a = 255;
-  photograph.image = std::move(image);
-  if (file) photograph.move_to(file);
+  photograph.image.remove_alpha();
 }
 
 }  // namespace tureen

@@ -37,6 +37,11 @@ void require_photographs(const DatasetOutline& outline, const DatasetOptions& op
   refuse(outline.test, options.part == DatasetPart::test, "test");
 }
 
+/// The way out where the folder of temporary files is full or cannot be written.
+constexpr const char* scratch_hint =
+    "TMPDIR names another folder, --max-memory SIZE keeps more in memory, and --scale makes "
+    "photographs smaller";
+
 /// Holds the pixels of photographs in memory up to half of the budget, because their decoders need
 /// memory, too, and those of further ones in a file.
 class PixelStore {
@@ -62,7 +67,7 @@ class PixelStore {
     // In the file, opaque pixels have three bytes.
     const double bytes = 0.5 * 3 * pixels - double(left_);
     if (bytes <= 0) return;
-    file_ = std::make_shared<ScratchFile>();
+    with_hint([&] { file_ = std::make_shared<ScratchFile>(); });
     std::error_code unknown;
     const fs::space_info space = fs::space(scratch_folder(), unknown);
     if (!unknown && bytes > double(space.available))
@@ -80,12 +85,22 @@ class PixelStore {
       left_ -= bytes;
       return;
     }
-    if (!file_) file_ = std::make_shared<ScratchFile>();
-    photograph.move_to(file_);
+    with_hint([&] {
+      if (!file_) file_ = std::make_shared<ScratchFile>();
+      photograph.move_to(file_);
+    });
     budget_.give_back(bytes);
   }
 
  private:
+  static void with_hint(const auto& act) {
+    try {
+      act();
+    } catch (const OutputError& error) {
+      throw OutputError(error.position(), error.reason(), scratch_hint);
+    }
+  }
+
   MemoryBudget budget_;
   std::uint64_t left_;
   std::shared_ptr<ScratchFile> file_;

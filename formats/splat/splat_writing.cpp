@@ -7,6 +7,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <utility>
 
+#include "base/decimal_text.hpp"
 #include "base/error.hpp"
 #include "scene/edit/baked_transform.hpp"
 #include "scene/edit/moved_splats.hpp"
@@ -23,11 +24,23 @@ void place_in_world(Layer& layer) {
   layer.world_from_layer = glm::dmat4(1.0);
 }
 
+std::vector<std::string> profile_losses(SplatProfile profile, const std::string& format,
+                                        std::string_view stored) {
+  const SplatProfile found = *profile_named(stored);
+  std::vector<std::string> lost;
+  if (profile.min_center_depth != found.min_center_depth)
+    lost.push_back(format + " holds no near limit; readers use " +
+                   short_decimal(double(found.min_center_depth), 6) + ".");
+  profile.min_center_depth = found.min_center_depth;
+  if (profile != found)
+    lost.push_back(format + " cannot hold this profile; readers use " + std::string(stored) + ".");
+  return lost;
+}
+
 std::vector<std::string> splat_losses(const Scene& scene, const Layer& layer,
                                       const std::string& format, std::string_view stored) {
-  std::vector<std::string> lost;
-  if (std::get<Splats>(layer.primitives).profile != *profile_named(stored))
-    lost.push_back(format + " cannot hold this profile; readers use " + std::string(stored) + ".");
+  std::vector<std::string> lost =
+      profile_losses(std::get<Splats>(layer.primitives).profile, format, stored);
   if (layer.world_from_layer != glm::dmat4(1.0))
     lost.push_back(format + " holds no origin: the splats are written relative to it.");
   if (scene.info.up != splat_up)

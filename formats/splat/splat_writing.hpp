@@ -17,6 +17,10 @@ inline constexpr glm::vec3 splat_up{0.0f, -1.0f, 0.0f};
 /// that positions would lose more than 7 of their 24 bits.
 void place_in_world(Layer& layer);
 
+/// One sentence for each loss of a format that holds a profile by its name, `stored`.
+std::vector<std::string> profile_losses(SplatProfile profile, const std::string& format,
+                                        std::string_view stored);
+
 /// One sentence for each loss of a format that holds splats and a profile, and nothing else.
 /// `layer` is placed; `stored` is the profile that readers find.
 std::vector<std::string> splat_losses(const Scene& scene, const Layer& layer,

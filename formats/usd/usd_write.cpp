@@ -12,6 +12,7 @@
 #include "base/extension.hpp"
 #include "base/output.hpp"
 #include "formats/archive/zip_writer.hpp"
+#include "formats/splat/splat_writing.hpp"
 #include "formats/usd/usd.hpp"
 #include "scene/similarity.hpp"
 
@@ -122,8 +123,8 @@ std::vector<std::string> usd_losses(const Scene& scene) {
     const auto& splats = std::get<Splats>(layer.primitives);
     const bool flat = std::get<Gaussians>(splats.kernel).flat;
     const std::string stored = flat ? "2dgs" : "3dgs";
-    if (splats.profile != *profile_named(stored))
-      lost.push_back("USD cannot hold this profile; readers use " + stored + ".");
+    for (const std::string& each : profile_losses(splats.profile, "USD", stored))
+      lost.push_back(each);
   }
   std::sort(lost.begin(), lost.end());
   lost.erase(std::unique(lost.begin(), lost.end()), lost.end());

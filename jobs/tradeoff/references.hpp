@@ -1,4 +1,4 @@
-// Reference images for errors of drawing: one model, drawn by the oracle; and the errors.
+// Reference images for errors of drawing, by the oracle or by rays: one model; and the errors.
 #pragma once
 
 #include <functional>

@@ -47,7 +47,7 @@ QualitySetting texel_bits(const LatticeTexture& texture) {
   QualitySetting setting{
       "texel_bits", "texel bits", {{texture.is_float() ? "32" : "8", "bits as stored"}}};
   if (texture.is_float())
-    setting.values.push_back({"8", "8 bits a texel channel", {.edits = {.byte_texels = true}}});
+    setting.values.push_back({"8", "8 bits per texel channel", {.edits = {.byte_texels = true}}});
   return setting;
 }
 
@@ -100,8 +100,8 @@ Scene edited(Scene scene, const Applied& applied, const std::function<void(doubl
   return scene;
 }
 
-std::vector<QualitySetting> drawing_settings(const Splats& splats,
-                                             std::span<const std::uint64_t> weights) {
+std::vector<QualitySetting> scene_settings(const Splats& splats,
+                                           std::span<const std::uint64_t> weights) {
   std::vector<QualitySetting> settings{splat_order()};
   settings.push_back(budget(
       {"splat_fraction", "splats", {{"1", "all splats"}}}, "splats", weights,
@@ -118,8 +118,8 @@ std::vector<QualitySetting> drawing_settings(const Splats& splats,
   return without_constants(std::move(settings));
 }
 
-std::vector<QualitySetting> drawing_settings(const TriangleSoup& soup,
-                                             std::span<const std::uint64_t> visible_pixels) {
+std::vector<QualitySetting> scene_settings(const TriangleSoup& soup,
+                                           std::span<const std::uint64_t> visible_pixels) {
   std::vector<QualitySetting> settings;
   if (const auto* texture = std::get_if<LatticeTexture>(&soup.appearance)) {
     settings.push_back(lattice_level(*texture));
@@ -165,11 +165,22 @@ Applied applied_by(const std::vector<QualitySetting>& settings,
     take(applied.edits, change.edits, &Edits::byte_texels);
     take(applied.splat_edits, change.splat_edits, &SplatEdits::keeps_splat);
     take(applied.splat_edits, change.splat_edits, &SplatEdits::opaque_windows);
-    take(applied.quality, change.quality, &Quality::resolution_scale);
-    take(applied.quality, change.quality, &Quality::supersampling);
-    take(applied.quality, change.quality, &Quality::splat_order);
   }
+  applied.quality = quality_of(settings, configuration);
   return applied;
+}
+
+Quality quality_of(const std::vector<QualitySetting>& settings,
+                   const Configuration& configuration) {
+  assert(settings.size() == configuration.size());
+  Quality quality;
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    const Quality& change = settings[i].values[std::size_t(configuration[i])].change.quality;
+    take(quality, change, &Quality::resolution_scale);
+    take(quality, change, &Quality::supersampling);
+    take(quality, change, &Quality::splat_order);
+  }
+  return quality;
 }
 
 std::string describe(const std::vector<QualitySetting>& settings,
@@ -204,7 +215,7 @@ std::vector<Configuration> combinations(const std::vector<QualitySetting>& setti
       }
   }
   std::erase_if(all, [&](const Configuration& each) {
-    return departures(each) < 2 || defect(applied_by(settings, each).quality);
+    return departures(each) < 2 || defect(quality_of(settings, each));
   });
   return all;
 }

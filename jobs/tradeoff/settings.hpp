@@ -46,18 +46,18 @@ struct QualitySetting {
   std::vector<SettingValue> values;  // the default first
 };
 
-/// The edits, in the order of docs/tradeoff.md: those that apply to this
-/// soup, with the values that change it. `visible_pixels` is the result of count_visible_pixels()
-/// for the views; the triangle budget uses it.
-std::vector<QualitySetting> drawing_settings(const TriangleSoup& soup,
-                                             std::span<const std::uint64_t> visible_pixels);
+/// The settings that depend on the scene, in the order of docs/tradeoff.md: the edits that apply to
+/// this soup, with the values that change it. `visible_pixels` is the result of
+/// count_visible_pixels() for the views; the triangle budget uses it.
+std::vector<QualitySetting> scene_settings(const TriangleSoup& soup,
+                                           std::span<const std::uint64_t> visible_pixels);
 
-/// The same for splats: their order and number, and for windows opaque triangles. `weights` is the
-/// weights of splat_use(); without, the number does not vary.
-std::vector<QualitySetting> drawing_settings(const Splats& splats,
-                                             std::span<const std::uint64_t> weights);
+/// Those of splats: their order, which is a quality setting, and two edits: their number, and for
+/// windows opaque triangles. `weights`: those of splat_use(); empty: the number is fixed.
+std::vector<QualitySetting> scene_settings(const Splats& splats,
+                                           std::span<const std::uint64_t> weights);
 
-/// The quality settings: resolution scale, supersampling up to `max_samples` an axis, and with
+/// The quality settings: resolution scale, supersampling up to `max_samples` per axis, and with
 /// splats their order.
 std::vector<QualitySetting> antialiasing_settings(int max_samples, bool has_splats);
 
@@ -68,6 +68,8 @@ using Configuration = std::vector<int>;
 int departures(const Configuration& configuration);
 
 Applied applied_by(const std::vector<QualitySetting>& settings, const Configuration& configuration);
+/// Its quality alone; the edits may be an array as long as the scene.
+Quality quality_of(const std::vector<QualitySetting>& settings, const Configuration& configuration);
 
 /// The settings that differ from their defaults, "lattice level 2, base colour", or "defaults".
 std::string describe(const std::vector<QualitySetting>& settings,

@@ -52,12 +52,11 @@ std::vector<QualitySetting> settings_of(const StudyScene& scene, const StudyOpti
     const auto& splats = std::get<Splats>(layer.primitives);
     std::vector<std::uint64_t> weights;
     if (splatting::has_layer_for(splats))
-      weights =
-          splat_use(splats, layer.world_from_layer, scene.counting, progress).weights;
-    return drawing_settings(splats, weights);
+      weights = splat_use(splats, layer.world_from_layer, scene.counting, progress).weights;
+    return scene_settings(splats, weights);
   }
-  return drawing_settings(*soup, count_visible_pixels(scene.context, *soup, origin_of(layer),
-                                                      scene.counting, progress));
+  return scene_settings(*soup, count_visible_pixels(scene.context, *soup, origin_of(layer),
+                                                    scene.counting, progress));
 }
 
 void study_drawing(const StudyScene& scene, const StudyOptions& options, Study& study) {

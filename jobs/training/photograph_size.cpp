@@ -12,6 +12,7 @@
 #include "image/png.hpp"
 #include "jobs/training/first_gaussians.hpp"
 #include "scene/region.hpp"
+#include "scene/upper_median.hpp"
 #include "trainer/common/random.hpp"
 
 namespace tureen {
@@ -71,8 +72,7 @@ double measured_seconds_per_pixel(int threads) {
   std::vector<double> times;
   for (std::size_t i = starts.size() / 2; i < starts.size(); ++i)
     times.push_back(starts[i] - starts[i - 1]);
-  std::ranges::nth_element(times, times.begin() + std::ptrdiff_t(times.size() / 2));
-  return times[times.size() / 2] /
+  return upper_median(std::move(times)) /
          (double(dataset.train.front().image.pixels()) + pixels_of_splats);
 }
 
@@ -92,8 +92,7 @@ FullPhotographs full_photographs(const std::filesystem::path& dataset, DatasetOp
 FullPhotographs full_photographs(const std::vector<Photograph>& train) {
   FullPhotographs full;
   for (const Photograph& each : train) full.cameras.push_back(each.camera);
-  const Image8 first = train.front().image();
-  for (const glm::u8vec4& pixel : first.pixels) full.of_an_object |= pixel.a < 255;
+  full.of_an_object = !train.front().image.is_opaque();
   return full;
 }
 

@@ -23,7 +23,7 @@ std::string describe(const Edits& edits) {
     add("lattice level at most " + std::to_string(edits.lattice_level));
   if (edits.color == Edits::Color::baked) add("baked colour");
   if (edits.color == Edits::Color::base) add("base colour");
-  if (edits.byte_texels) add("8 bits a texel channel");
+  if (edits.byte_texels) add("8 bits per texel channel");
   return text.empty() ? "none" : text;
 }
 

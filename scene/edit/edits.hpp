@@ -30,7 +30,7 @@ struct Edits {
 };
 
 /// The edits that differ from their defaults, in words: "12 of 40 triangles, lattice level at most
-/// 3, baked colour, 8 bits a texel channel"; "none".
+/// 3, baked colour, 8 bits per texel channel"; "none".
 std::string describe(const Edits& edits);
 
 /// The members that differ from their defaults: "keeps_face", "lattice_level", "color",

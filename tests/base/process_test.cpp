@@ -134,14 +134,18 @@ TEST(Processes, EndAlsoIfTheyIgnoreSignals) {
 }
 
 TEST(Processes, OneThatCannotBeStartedHasTheSystemsReason) {
-  for (const auto input : {Process::Input::none, Process::Input::sent}) {
-    try {
-      Process("/no/such/program", {}, {.input = input});
-      FAIL() << "no exception";
-    } catch (const std::system_error& error) {
-      EXPECT_EQ(error.code(), std::errc::no_such_file_or_directory);
+  for (const bool ends_with_us : {false, true})
+    for (const auto input : {Process::Input::none, Process::Input::sent}) {
+      try {
+        Process("/no/such/program", {}, {.input = input, .ends_with_us = ends_with_us});
+        FAIL() << "no exception";
+      } catch (const std::system_error& error) {
+        EXPECT_EQ(error.code(), std::errc::no_such_file_or_directory);
+      }
     }
-  }
+  // A folder, and a file that is no program.
+  for (const char* program : {"/tmp", "/etc/passwd"})
+    EXPECT_THROW(Process(program, {}, {.ends_with_us = true}), std::system_error) << program;
   EXPECT_THROW(become_program("/no/such/program", {}), std::system_error);
 }
 

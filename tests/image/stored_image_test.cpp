@@ -47,6 +47,24 @@ TEST(StoredImage, IsTheSameFromAFile) {
   }
 }
 
+TEST(StoredImage, LosesAlphaWithoutAWrite) {
+  const Image8 image = random_image(37, 19, false);
+  Image8 opaque = image;
+  for (glm::u8vec4& pixel : opaque.pixels) pixel.a = 255;
+  const auto file = std::make_shared<ScratchFile>();
+  for (const bool in_file : {false, true}) {
+    StoredImage stored = image;
+    if (in_file) stored.move_to(file);
+    const StoredImage copy = stored;
+    const std::uint64_t before = file->size();
+    stored.remove_alpha();
+    EXPECT_EQ(file->size(), before);
+    EXPECT_TRUE(stored.is_opaque());
+    EXPECT_EQ(stored().pixels, opaque.pixels);
+    EXPECT_EQ(copy().pixels, image.pixels) << "copies keep theirs";
+  }
+}
+
 TEST(StoredImage, MayBeEmpty) {
   EXPECT_TRUE(StoredImage()().pixels.empty());
   EXPECT_TRUE(StoredBytes()().empty());
@@ -87,7 +105,10 @@ TEST(ScratchFile, NeedsAFolder) {
   }
 }
 
-TEST(ScratchFile, ReportsAFullDisk) {
+TEST(ScratchFile, ReportsAFullDiskAndLeavesNoFile) {
+  const auto folder = std::filesystem::path(testing::TempDir()) / "tureen_full_disk";
+  std::filesystem::create_directories(folder);
+  const ScratchFolder chosen(folder.c_str());
   // No file may have more than 1,000 bytes.
   const auto before = std::signal(SIGXFSZ, SIG_IGN);
   rlimit usual{};
@@ -101,9 +122,11 @@ TEST(ScratchFile, ReportsAFullDisk) {
     EXPECT_THROW(large.move_to(file), OutputError);
     EXPECT_EQ(fits(), std::vector<std::uint8_t>(900, 7));
     EXPECT_EQ(large(), std::vector<std::uint8_t>(900, 8)) << "nothing is lost";
+    EXPECT_TRUE(std::filesystem::is_empty(folder));
   }
   setrlimit(RLIMIT_FSIZE, &usual);
   std::signal(SIGXFSZ, before);
+  EXPECT_TRUE(std::filesystem::remove(folder)) << "it is empty";
 }
 
 }  // namespace stored_image_test

@@ -25,6 +25,13 @@ TEST(Remark, HasWordsByCount) {
   EXPECT_EQ(describe({&kind, {{"n", 1234}, {"list", Counts{4, 5, 6}}}}), "1234 faces: 4, 5 and 6");
 }
 
+TEST(Remark, HasWordsForListsOfOneName) {
+  constexpr RemarkKind kind{"kind", RemarkKind::Severity::note, "{names:and} {names:is|are} blue"};
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(describe({&kind, {{"names", Names{"a"}}}}), "a is blue");
+  EXPECT_EQ(describe({&kind, {{"names", Names{"a", "b"}}}}), "a and b are blue");
+}
+
 TEST(Remark, KeepsTheBracesOfAFieldThatItLacks) {
   constexpr RemarkKind kind{"kind", RemarkKind::Severity::note, "{m} and {n:.2}"};
   EXPECT_EQ(describe({&kind, {{"n", 0.125}}}), "{m} and 0.12");

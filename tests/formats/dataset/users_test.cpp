@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "base/platform/scratch_file.hpp"
 #include "formats/dataset/alpha.hpp"
 #include "formats/dataset/dataset.hpp"
 #include "formats/dataset/near_files.hpp"
@@ -443,6 +444,24 @@ TEST(Alpha, IsAppliedAsItsMeaningSays) {
   apply_alpha(AlphaMeaning::ignore, ignored);
   EXPECT_TRUE(ignored.ignored.empty());
   EXPECT_EQ(ignored.image().pixels, opaque(0).image().pixels);
+}
+
+TEST(Alpha, OfAPhotographInAFileAddsNoMoreThanItsMask) {
+  const auto file = std::make_shared<ScratchFile>();
+  Photograph mask = opaque(0);
+  Image8 image = mask.image();
+  image.at(3, 2).a = 0;
+  mask.image = image;
+  mask.move_to(file);
+  Photograph ignored = mask;
+  apply_alpha(AlphaMeaning::mask, mask);
+  apply_alpha(AlphaMeaning::ignore, ignored);
+  EXPECT_EQ(file->size(), (4 + 1) * 200u);
+  EXPECT_EQ(mask.bytes(), (3 + 1) * 200u);
+  EXPECT_EQ(mask.ignored.file(), file);
+  EXPECT_EQ(std::ranges::count(mask.ignored(), 1), 1);
+  for (const Photograph& each : {mask, ignored})
+    EXPECT_EQ(each.image().pixels, opaque(0).image().pixels);
 }
 
 }  // namespace users_test

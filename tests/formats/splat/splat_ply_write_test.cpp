@@ -79,6 +79,18 @@ TEST(SplatPlyWrite, GaussiansReadBack) {
     }
 }
 
+TEST(SplatPlyWrite, NamesANearLimitThatItLoses) {
+  Splats splats = random_gaussians(7, 20, "mip", 1, false);
+  splats.profile.min_center_depth = 0.05f;
+  std::vector<std::string> lost;
+  written_and_read(splats, lost);
+  EXPECT_THAT(lost, ElementsAre("PLY holds no near limit; readers use 0.2."));
+  splats.profile.max_alpha = 0.5f;
+  written_and_read(splats, lost);
+  EXPECT_THAT(lost, ElementsAre("PLY holds no near limit; readers use 0.2.",
+                                "PLY cannot hold this profile; readers use mip."));
+}
+
 TEST(SplatPlyWrite, NeuralDensitiesReadBack) {
   for (const int degree : {1, 3, 4}) {
     Splats splats = random_densities(8, 20, degree);
