@@ -258,10 +258,12 @@ DatasetOutline read_outline(const fs::path& path, const DatasetOptions& options,
   require_there(path);
   std::error_code ignored;
   if (!fs::is_directory(path, ignored)) {
-    if (extension_of(path) != ".json")
+    if (extension_of(path) != ".json") {
+      Input::open(path);  // reports a file that may not be read
       throw InputError({path.string()}, "is neither a folder nor a transforms.json",
                        "for photographs without cameras, pass their folder or a video to tureen "
                        "cameras or train");
+    }
     return one_transforms_file(path, options, budget);
   }
   for (const char* name : {"transforms_train.json", "transforms_test.json"})

@@ -50,9 +50,9 @@ void check_existing(const TrainingJob& job, const TrainingFiles& files) {
                      "choose another name");
   const bool has_checkpoint = fs::exists(files.checkpoint, error);
   if (job.resume && !has_checkpoint)
-    throw UsageError(
-        "there is no " + files.checkpoint.string() + ": this training has ended, or was not begun",
-        "leave --resume out to train");
+    throw InputError({files.checkpoint.string(), {}, {}},
+                     "there is no such file: the training has ended, or was not begun",
+                     "leave --resume out to train");
   if (!job.resume && has_checkpoint)
     throw UsageError(files.checkpoint.string() + " exists, from an unfinished run",
                      "continue this run with --resume, or remove the file to start again");

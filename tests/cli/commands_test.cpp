@@ -124,7 +124,7 @@ TEST(Messages, NameOptionsAndCommandsThatExist) {
     if (literal.starts_with("--")) known.insert(literal.substr(0, literal.find_first_of(" ,")));
   // An option of REdiSplats' program, and an earlier name of --images.
   known.insert({"--quant", "--pictures"});
-  known.insert("--no-install-recommends");  // of apt-get
+  known.insert({"--no-install-recommends", "--pdeathsig"});  // of apt-get and setpriv
   // Formats of results that are named after their source.
   const std::set<std::string> formats{"web", "measurements"};
   std::size_t checked = 0;

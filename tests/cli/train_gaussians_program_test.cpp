@@ -164,7 +164,7 @@ TEST_F(TrainGaussians, ResumesAfterCtrlCWithTheSameBits) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_FALSE(exists("ball.checkpoint"));
   const ChildResult again = run({"train", "-o", "ball.glb", "--resume"});
-  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_EQ(again.exit_code, 3);
   EXPECT_THAT(again.err, Names("ball.checkpoint", "ended"));
   fs::create_directories(folder / "whole");
   ASSERT_EQ(gaussians("whole/ball.glb", options(std::to_string(steps))).exit_code, 0);

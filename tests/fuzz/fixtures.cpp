@@ -228,7 +228,7 @@ void add_text_meshes(Collection& all) {
   all.add("obj", "colors.obj",
           "mtllib a.mtl\ng a\nusemtl red\nv 0 0 0 1 0 0\nv 1 0 0 .5 1 0\nv 1 1 0\nv 0 1 0 1\n"
           "vt 0\nf 1 2 \\\n3//1 4/1\nl 1 2\nusemtl a b\nf -1 -2 -3\n");
-  all.add("obj", "red.mtl",
+  all.add("mtl", "red.mtl",
           "newmtl red\nKd 1 0 0\nd 0.4\nmap_Kd -s 1 2 -clamp on a b.png\nnewmtl a b\nKd .5\n"
           "Tr 0.1\nmap_d -o 1 a b.png\nKd xyz 1 1 1\n");
 }

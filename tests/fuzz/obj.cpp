@@ -1,9 +1,8 @@
-// An OBJ, its material library, and the OBJ of a MobileNeRF shape.
+// An OBJ, and the OBJ of a MobileNeRF shape.
 #include "formats/mesh/obj.hpp"
 
 #include <cstdlib>
 
-#include "formats/mesh/mtl.hpp"
 #include "tests/fuzz/targets.hpp"
 
 namespace tureen::fuzz {
@@ -16,7 +15,6 @@ void obj(Bytes bytes) {
     } catch (const InputError&) {  // the next reader may accept the bytes
     }
   };
-  try_to([](Input& input) { read_mtl(input); });
   try_to([](Input& input) { read_obj(input, {.only_uv = true}); });
   Input input = Input::memory("fuzz.obj", bytes);
   const ObjMesh mesh = read_obj(input);

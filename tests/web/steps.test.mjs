@@ -245,7 +245,7 @@ test('a lost device loses no step', viewing(async (page) => {
     return { before, after, names, first, undone: await state() };
   });
   assert.equal(after, before);
-  assert.deepEqual(names, ['Add splats', 'Move splats', 'Change the background', 'Remove red']);
+  assert.deepEqual(names, ['Add splats', 'Place splats', 'Change the background', 'Remove red']);
   assert.equal(undone, first);
 }));
 
