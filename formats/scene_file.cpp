@@ -62,7 +62,7 @@ struct Format {
 };
 
 #ifdef __EMSCRIPTEN__
-constexpr bool in_browser = true;
+[[maybe_unused]] constexpr bool in_browser = true;
 #else
 constexpr bool in_browser = false;
 #endif
@@ -201,6 +201,7 @@ const std::vector<Format>& formats() {
        .write = plainly<write_splat_records>,
        .assumed_up = up_of_splats,
        .is_quantised = true},
+#ifndef TUREEN_FEW_FORMATS
       {.name = "MobileNeRF",
        .description = "a folder of shapes with feature textures and a color MLP, or a file in it",
        .read_extensions =
@@ -208,6 +209,7 @@ const std::vector<Format>& formats() {
        .is_folder = true,
        .recognises = [](const Candidate& c) { return is_mobilenerf(c.path); },
        .read = read_mobilenerf},
+#endif
 #ifndef __EMSCRIPTEN__
       // After MobileNeRF, which reads its shapes.
       {.name = "OBJ",
@@ -271,7 +273,7 @@ const Format& format_to_read(const Candidate& candidate) {
 #ifdef TUREEN_FEW_FORMATS
   // Reached only by a page that cannot load the second program, such as one in a single file.
   for (const char* elsewhere :
-       {".sog", ".ssog", ".spz", ".ksplat", ".usda", ".usdz", ".npz", ".pt"})
+       {".sog", ".ssog", ".spz", ".ksplat", ".usda", ".usdz", ".npz", ".pt", ".obj"})
     if (extension == elsewhere && !candidate.is_folder)
       throw InputError({candidate.path.string()},
                        "this page does not read " + extension + " files; convert it to GLB: " +

@@ -14,7 +14,7 @@ const kind = (end: string, further: boolean, alone: boolean): Kind => ({ end, fu
 
 /** In the order in which a file of several is chosen as the scene. */
 export const kinds: readonly Kind[] = [
-  kind('.gltf', false, false), kind('.obj', false, false),
+  kind('.gltf', false, false), kind('.obj', true, false),
   kind('lod-meta.json', true, false), kind('meta.json', true, false),
   kind('.glb', false, true), kind('.off', false, true), kind('.coff', false, true), kind('.ply', false, true),
   kind('.splat', false, true), kind('.sog', true, true), kind('.ssog', true, true), kind('.spz', true, true),
