@@ -63,7 +63,7 @@ struct Format {
 };
 
 #ifdef __EMSCRIPTEN__
-constexpr bool in_browser = true;
+[[maybe_unused]] constexpr bool in_browser = true;
 #else
 constexpr bool in_browser = false;
 #endif

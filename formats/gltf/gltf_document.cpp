@@ -28,7 +28,7 @@ constexpr std::string_view spz_prefix = "KHR_gaussian_splatting_compression_spz"
 /// A hint for a file that requires an extension that is not supported; "" without one.
 std::string way_out(const std::string& extension) {
   if (extension.starts_with(spz_prefix))
-    return "its splats are an SPZ file; splat-transform IN.glb OUT.ply converts it";
+    return "its splats are an SPZ file; tureen convert IN.glb OUT.glb converts it";
   if (extension == "KHR_draco_mesh_compression" || extension == "EXT_meshopt_compression")
     return "gltf-transform copy IN.glb OUT.glb decompresses it";
   if (extension == "KHR_texture_basisu")

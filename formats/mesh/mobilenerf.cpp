@@ -198,13 +198,14 @@ bool is_mobilenerf(const fs::path& path) {
 
 Scene read_mobilenerf(const fs::path& path, const ReadOptions& options) {
   const fs::path folder = folder_of(path);
-  // A separate error for meshes from other programs, which have no mlp.json.
+  // Meshes from other programs have no mlp.json. Only a page comes here with one.
   std::error_code ignored;
   if (!fs::is_directory(path, ignored) && path.filename() != "mlp.json" &&
       fs::symlink_status(folder / "mlp.json", ignored).type() == fs::file_type::not_found)
     throw InputError(
         {path.string()},
-        "an .obj is supported only as part of a MobileNeRF scene, but its folder has no mlp.json");
+        "the page reads an .obj only as part of a MobileNeRF scene, and its folder has no mlp.json",
+        "tureen convert FILE.obj FILE.glb converts another one");
   const MemoryBudget budget;
   Network network = read_network(folder, budget);
   const auto shapes = find_shapes(folder);

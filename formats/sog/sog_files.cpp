@@ -34,6 +34,16 @@ bool SogFiles::has(const std::string& name) const {
   return fs::is_regular_file(folder_ / name, ignored);
 }
 
+bool SogFiles::may_gain(const std::string& name) const {
+  if (archive_) return false;
+  try {
+    resolve_name_in_folder(folder_, name);
+  } catch (const UriError&) {
+    return false;
+  }
+  return true;
+}
+
 std::vector<std::byte> SogFiles::read(const std::string& name) {
   if (!archive_) return open_in_folder(folder_, name, place_->budget()).read_rest();
   const ZipEntry* entry = archive_->find(name);

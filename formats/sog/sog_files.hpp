@@ -19,6 +19,8 @@ class SogFiles {
   explicit SogFiles(Input archive);
 
   bool has(const std::string& name) const;
+  /// Whether read() would accept a file of this name that is added: to a folder, and not outside.
+  bool may_gain(const std::string& name) const;
   /// The bytes of a file, counted in the budget. Throws InputError if it is missing or its name
   /// leads out of the folder.
   std::vector<std::byte> read(const std::string& name);

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <string_view>
 
 #include "formats/sog/sog.hpp"
 #include "formats/sog/sog_levels.hpp"
@@ -8,12 +7,6 @@
 namespace tureen {
 
 namespace {
-
-/// Whether the reader rejects the name because it leads out of the folder.
-bool leads_out(std::string_view name) {
-  return name.empty() || name.front() == '/' || name.find(':') != name.npos ||
-         name.find("..") != name.npos;
-}
 
 class Needs {
  public:
@@ -34,7 +27,7 @@ class Needs {
  private:
   bool add(const std::string& name) {
     if (files_.has(name)) return true;
-    if (!leads_out(name)) needs_.missing.push_back(name);
+    if (files_.may_gain(name)) needs_.missing.push_back(name);
     return false;
   }
 

@@ -4,6 +4,7 @@ import assert from 'node:assert/strict';
 import { execFileSync, spawnSync } from 'node:child_process';
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { pathToFileURL } from 'node:url';
 import { gzipSync } from 'node:zlib';
 import { drawingPage, drawingRoutes } from './drawing.mjs';
 import { splatPly } from './splat_ply.mjs';
@@ -18,6 +19,17 @@ for (const [prefix, root] of [['/streamed/', file('streamed')], ['/playbot/', pl
       const bytes = readFileSync(join(root, path));
       response.writeHead(200, { 'content-length': bytes.length }).end(bytes);
     };
+/** Requests for the file without an extension, and the answer to a second one for the other file, which never comes. */
+let unnamedRequests = 0, stalledRequests = 0, stalls;
+const stalled = new Promise((resolve) => { stalls = resolve; });
+routes['/unnamed'] = (request, response) => {
+  ++unnamedRequests;
+  response.writeHead(200).end(readFileSync(file('read.spz')));
+};
+routes['/once.spz'] = (request, response) => {
+  if (++stalledRequests === 1) return response.writeHead(200).end(readFileSync(file('read.spz')));
+  stalls();
+};
 const { visit } = await stage({ routes });
 
 /** The files of a streamed scene with two levels, which are made here, or of playbot. */
@@ -86,6 +98,9 @@ test('each format has the image that its conversion by the program has', (contex
     const expected = await image(wanted);
     await load(folder, ['unnamed']);
     assert.deepEqual(await image(wanted), expected);
+    await page.evaluate(() => viewer.load({ url: '/unnamed' }));
+    assert.deepEqual(await image(wanted), expected);
+    assert.equal(unnamedRequests, 1, 'the second program gets what the first has downloaded');
   });
   await context.test('a debug view', async () => {
     await load(folder, ['expected.glb']);
@@ -93,7 +108,85 @@ test('each format has the image that its conversion by the program has', (contex
     await load(folder, ['read.usdz']);
     assert.deepEqual(await image({ ...wanted, look: 'overdraw' }), expected);
   });
+  await context.test('a load cancels the reading for a debug view', async () => {
+    await page.evaluate(async () => {
+      await viewer.load({ url: '/once.spz' });
+      window.shown = viewer.show('overdraw').then(() => 'shown', (error) => error.kind);
+    });
+    await stalled;
+    assert.equal(await page.evaluate(async () => {
+      await viewer.load({ url: '/soup.glb' });
+      return window.shown;
+    }), 'cancelled');
+  });
 }));
+
+/** A module of web/viewer. */
+async function viewerModule(name) {
+  const { build } = await import(pathToFileURL(join(source, 'web/node_modules/esbuild/lib/main.js')).href);
+  const outfile = file(`${name}.mjs`);
+  await build({ entryPoints: [join(source, `web/viewer/${name}.ts`)], bundle: true, format: 'esm', platform: 'node', outfile, logLevel: 'warning' });
+  return import(pathToFileURL(outfile).href);
+}
+
+// RFC 8878, 3.1.1: frames of raw blocks and blocks of one byte, by hand. `size`: in the header; -1: none.
+test('zstd: exactly one frame of exactly the bytes', async () => {
+  const { codecs: { unzstd } } = await viewerModule('codecs');
+  const block = (type, size, last, ...bytes) => {
+    const head = size << 3 | type << 1 | (last ? 1 : 0);
+    return [head & 255, head >> 8 & 255, head >> 16, ...bytes];
+  };
+  const frame = (size, ...blocks) => [0x28, 0xb5, 0x2f, 0xfd, ...(size < 0 ? [0, 0] : [32, size]), ...blocks.flat()];
+  const raw = (last, ...bytes) => block(0, bytes.length, last, ...bytes);
+  const read = (size, ...bytes) => {
+    const output = new Uint8Array(size), result = unzstd(Uint8Array.from(bytes), output);
+    return result < 0 ? result : [...output.subarray(0, result)];
+  };
+  for (const size of [5, -1]) {
+    assert.deepEqual(read(5, ...frame(size, raw(false, 1, 2), block(1, 3, true, 7))), [1, 2, 7, 7, 7]);
+    assert.equal(read(5, ...frame(size, raw(true, 1, 2, 3))), -1, 'too few');
+    assert.equal(read(5, ...frame(size, raw(false, 1, 2, 3), block(1, 3, true, 7))), -1, 'too many');
+    assert.equal(read(5, ...frame(size, raw(true, 1, 2, 3, 4, 5)), 0), -1, 'a byte more');
+    assert.equal(read(5, ...frame(size, raw(false, 1, 2, 3, 4, 5))), -1, 'no last block');
+  }
+  assert.equal(read(4, ...frame(2, raw(true, 1, 2)), ...frame(2, raw(true, 3, 4))), -1, 'two frames');
+  assert.equal(read(5, ...frame(4, raw(true, 1, 2, 3, 4, 5))), -1, 'another size in the header');
+  const checked = frame(2, raw(true, 1, 2));
+  checked[4] |= 4;
+  assert.deepEqual(read(2, ...checked, 0, 0, 0, 0), [1, 2], 'a checksum, which is not compared');
+});
+
+test('files of a scene: few at once, none after an error, no more than the memory', async () => {
+  const { planFiles } = await viewerModule('file_plan');
+  const names = Array.from({ length: 100 }, (_, i) => `${i}.webp`);
+  let begun = 0, running = 0, most = 0;
+  const load = (memory, part) => {
+    let there = [];
+    const engine = {
+      putFiles: (_, bytes) => { there = [...bytes.keys()]; },
+      call: () => ({ levels: [], level: 0, missing: names.filter((name) => !there.includes(`a/${name}`)) }),
+      emptyFolder: () => {},
+    };
+    begun = running = most = 0;
+    const files = { bytes: new Map([['a/meta.json', new Uint8Array(10)]]), paths: ['a/meta.json'] };
+    return planFiles(engine, files, { url: 'https://a.example/a/meta.json', name: 'a' }, memory, null, async (url) => {
+      most = Math.max(most, ++running);
+      const number = ++begun;
+      await new Promise((resolve) => { setTimeout(resolve); });
+      --running;
+      return part(number, url);
+    });
+  };
+  const { files } = await load(1010, () => new Uint8Array(10));
+  assert.equal(files.bytes.size, 101);
+  assert.ok(most > 1 && most <= 8, String(most));
+  await assert.rejects(load(1009, () => new Uint8Array(10)), { kind: 'memory' });
+  await assert.rejects(load(1e6, (number) => {
+    if (number === 20) throw new Error('no answer');
+    return new Uint8Array(10);
+  }), /no answer/);
+  assert.ok(begun < 30, String(begun));
+});
 
 test('a streamed SOG by its address, and another level', () => visit('?scene=streamed/lod-meta.json', async (page) => {
   await sceneShown(page, 'streamed');
@@ -181,9 +274,10 @@ test('the page writes GLB, PLY and a page, and plays tours', (context) => visit(
       for (let frames = 0; frames < 5; ++frames) await new Promise((resolve) => { viewer.on('frame', resolve); });
       const now = viewer.getView();
       viewer.orbit(1, 0);
+      const ended = viewer.playing;
       let refused = false;
       try { viewer.play('cameras'); } catch (error) { refused = error.kind === 'usage'; }
-      return { moved: Math.hypot(...eye.map((value, axis) => value - now.eye[axis])), kept: apart(now) / apart(pose), ended: viewer.playing, refused };
+      return { moved: Math.hypot(...eye.map((value, axis) => value - now.eye[axis])), kept: apart(now) / apart(pose), ended, refused };
     }, from);
     assert.ok(moved > 0);
     // The target is where the line of sight is nearest to the box's centre, which is not exactly the origin.
@@ -218,7 +312,23 @@ test('the list of names has every extension that the program reads', () => {
   assert.ok(names.length > 12, stderr);
   const list = readFileSync(join(source, 'web/viewer/formats.ts'), 'utf8');
   for (const name of names) assert.ok(list.includes(`'${name}'`), name);
+  // What a page in one file names, because it lacks the second program; binary USD has an error of its own.
+  const [, elsewhere] = /const char\* elsewhere :\s*\{([^}]*)\}/.exec(readFileSync(join(source, 'formats/scene_file.cpp'), 'utf8'));
+  const further = [...list.matchAll(/kind\('(\.\w+)', true/g)].map(([, name]) => name);
+  assert.deepEqual([...elsewhere.matchAll(/"(.+?)"/g)].map(([, name]) => name).sort(),
+                   further.filter((name) => name !== '.usd' && name !== '.usdc').sort());
 });
+
+test('what only the program reads has an error that names it', (context) => visit('', async (page) => {
+  const gltf = { asset: { version: '2.0' }, extensionsRequired: ['KHR_gaussian_splatting_compression_spz_2'] };
+  const cases = { 'mesh.obj': 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n', 'spz.gltf': JSON.stringify(gltf) };
+  await each(context, Object.entries(cases).map(([name, content]) => [name, async () => {
+    writeFileSync(file(name), content);
+    await page.evaluate(() => document.querySelector('#errors').replaceChildren());
+    await pick(page, file(name));
+    assert.match(await errorShown(page), /MobileNeRF|spz_2/);
+  }]));
+}));
 
 // Floor 3 s, aim 1.5 s (issue 62); on two cores that also draw, and perhaps build, a test can only print it.
 test('playbot is shown whole', { skip: existsSync(playbot) ? false : 'no ../shared/data' }, () => visit('drawing.html', async (page) => {

@@ -11,11 +11,32 @@ let last = 0;
 const littleNumber = (bytes: Uint8Array, at: number, size: number) =>
   bytes.subarray(at, at + size).reduceRight((sum, byte) => sum * 256 + byte, 0);
 
-/** The size in the header of a frame (RFC 8878, 3.1.1.1); null if it has none. */
-function contentSize(frame: Uint8Array): number | null {
+/** The header of a frame (RFC 8878, 3.1.1.1): its size, and that of the content; null if the header has none. */
+function frameHeader(frame: Uint8Array): { readonly size: number; readonly content: number | null } {
   const descriptor = frame[4] ?? 0, isSingle = (descriptor & 32) !== 0, width = [isSingle ? 1 : 0, 2, 4, 8][descriptor >> 6]!;
   const at = 5 + (isSingle ? 0 : 1) + [0, 1, 2, 4][descriptor & 3]!;
-  return width === 0 ? null : littleNumber(frame, at, width) + (width === 2 ? 256 : 0);
+  return { size: at + width, content: width === 0 ? null : littleNumber(frame, at, width) + (width === 2 ? 256 : 0) };
+}
+
+/** The frame, with an empty block added as its last one and without its checksum; `at` is the size of the header. Null if
+ *  the input is not a single whole frame. */
+function withEmptyBlock(frame: Uint8Array, at: number): Uint8Array | null {
+  let last = at;
+  for (let isLast = false; !isLast;) {
+    if (at + 3 > frame.length) return null;
+    const head = littleNumber(frame, at, 3), isOneByte = (head >> 1 & 3) === 1;
+    isLast = (head & 1) === 1;
+    last = at;
+    at += 3 + (isOneByte ? 1 : head >> 3);
+  }
+  const checksum = frame[4]! & 4;  // the flag's bit is the size
+  if (at + checksum !== frame.length) return null;
+  const longer = new Uint8Array(at + 3);
+  longer.set(frame.subarray(0, at));
+  longer[4]! -= checksum;
+  longer[last]! -= 1;
+  longer[at] = 1;
+  return longer;
 }
 
 export const codecs: Codecs = {
@@ -40,9 +61,17 @@ export const codecs: Codecs = {
   },
   unzstd(input, output) {
     try {
-      if ((contentSize(input) ?? output.length) !== output.length) return -1;
-      decompress(input, output);
-      return output.length;
+      const { size, content } = frameHeader(input), frame = withEmptyBlock(input, size);
+      if (!frame || (content ?? output.length) !== output.length) return -1;
+      // fzstd does not report how much it writes. It stores the empty block where the content ends.
+      const target = output.subarray();
+      let end = -1;
+      target.set = (source, at = 0) => {
+        end = at;
+        output.set(source, at);
+      };
+      decompress(frame, target);
+      return end === output.length ? end : -1;
     } catch {
       return -1;
     }

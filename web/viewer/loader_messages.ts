@@ -122,7 +122,7 @@ export interface LoadMessage {
   readonly program: 'further' | 'first' | 'only';
 }
 
-/** Read sources and write them as one file; of a worker with the program of all formats. */
+/** Reads sources and writes one file; for a worker with the all-formats program. */
 export interface WriteMessage {
   readonly kind: 'write';
   readonly sources: readonly { readonly source: SourceToLoad; readonly memory: number; readonly maxSplats: number | null }[];
@@ -157,8 +157,9 @@ export type FromLoader =
   | { readonly kind: 'block'; readonly block: Block }
   | { readonly kind: 'scene'; readonly scene: PreparedScene }
   | { readonly kind: 'layer'; readonly layer: PreparedLayer }
-  /** The program does not recognise the scene, but that with all formats may. */
-  | { readonly kind: 'elsewhere' }
+  /** The program does not recognise the scene. The all-formats program may read it. `downloaded`: the file of a source by
+   *  address. */
+  | { readonly kind: 'elsewhere'; readonly downloaded: Blob | null }
   | { readonly kind: 'written'; readonly bytes: Uint8Array<ArrayBuffer>; readonly losses: readonly string[] }
   | { readonly kind: 'inflated'; readonly inflated: Inflated }
   | { readonly kind: 'sorted'; readonly number: number; readonly order: Uint8Array<ArrayBuffer> }

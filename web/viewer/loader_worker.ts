@@ -1,6 +1,6 @@
 // The script of all workers. A worker sorts splats (splat_sorting.ts), inflates for another one (inflating.ts), writes a file
-// (writing.ts), or loads one scene: it fetches and reads the scene, prepares the device's data and transfers them. The end of the worker frees
-// all its memory, so a load is cancelled by ending it.
+// (writing.ts), or loads one scene: it fetches and reads the scene, prepares the device's data and transfers them. The end
+// of the worker frees all its memory, so a load is cancelled by ending it.
 
 import { fileNameOf } from './addresses.js';
 import { download } from './download.js';
@@ -17,8 +17,8 @@ import { oneFile, openFiles, readWith, type OpenedFiles } from './scene_files.js
 import { Sending, type BlobSize, type Prepared } from './sending.js';
 import { ViewerError, type LoadStage, type SplatOffer } from './types.js';
 
-/** Fraction on the progress bar at the start of each stage, for local files and for downloads. */
 type Stage = Exclude<LoadStage, 'write'>;
+/** Fraction on the progress bar at the start of each stage, for local files and for downloads. */
 const starts: Record<'files' | 'url', Record<Stage, number>> = {
   files: { download: 0, read: 0, prepare: 0.8, upload: 0.95 },
   url: { download: 0, read: 0.6, prepare: 0.9, upload: 0.97 },
@@ -94,7 +94,7 @@ class Loader {
     if (only && others.length === 0) await this.decodeTexels(only);
     this.engine.onProgress = (fraction) => this.tell('read', this.readFrom + (1 - this.readFrom) * fraction);
     const description = await this.read(planned);
-    if (!description) return post({ kind: 'elsewhere' });
+    if (!description) return post({ kind: 'elsewhere', downloaded: this.from === 'url' && only ? new Blob([only]) : null });
     this.description = { ...description, levels: planned.levels, lod: planned.given.lod ?? 0, further: this.message.program === 'further' };
     this.readMs = performance.now() - begin;
     const { role } = this.message;
@@ -114,7 +114,7 @@ class Loader {
 
   /** Reads the scene, or a part of its splats if the memory does not hold all. */
   private async read({ files, given }: PlannedFiles): Promise<SceneDescription | null> {
-    const { memory, maxSplats, up} = this.message;
+    const { memory, maxSplats, up } = this.message;
     const elsewhere = this.message.program === 'first';
     const once = (splats: number | null) => readWith<SceneDescription | { readonly offer: SplatOffer } | null>(
       this.engine, 'read', files, { ...given, elsewhere, ...(up && { up }), ...(splats === null ? { memory } : { max_splats: splats }) });

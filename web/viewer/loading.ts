@@ -57,7 +57,7 @@ export class Loading {
   private readonly unheard: FromLoader[] = [];
   private readonly ending = new AbortController();
   /** Begins again in the program with all formats. */
-  private restart: () => void = () => {};
+  private restart: (downloaded: Blob | null) => void = () => {};
 
   /** `limits`: limits of the device; preparing waits for them. `memory`, `maxSplats`: as in LoadMessage. `role` decides
    *  which events run() needs. */
@@ -82,9 +82,11 @@ export class Loading {
   private async begin(assets: Assets, program: Promise<WebAssembly.Module>, limits: Promise<unknown>,
                       source: SceneSource): Promise<void> {
     const toLoad = sourceToLoad(source), { further } = assets;
-    this.restart = () => {
+    this.restart = (downloaded) => {
       this.worker!.terminate();
-      this.beginIn(further!, compile(further!), limits, toLoad, 'further').catch((error: unknown) => this.end(error));
+      const { name, lod } = toLoad;
+      const again = downloaded ? { files: [{ path: name, data: downloaded }], name, ...(lod !== undefined && { lod }) } : toLoad;
+      this.beginIn(further!, compile(further!), limits, again, 'further').catch((error: unknown) => this.end(error));
     };
     if (further && isFurther(toLoad)) return this.beginIn(further, compile(further), limits, toLoad, 'further');
     return this.beginIn(assets, program, limits, toLoad, further ? 'first' : 'only');
@@ -142,7 +144,7 @@ export class Loading {
           const bytes = taken === 'kept' ? new ArrayBuffer() : block.bytes;
           return this.worker!.postMessage({ kind: 'taken', taken, bytes } satisfies ToLoader, [bytes]);
         }
-        case 'elsewhere': return this.restart();
+        case 'elsewhere': return this.restart(message.downloaded);
         case 'offer': return void this.answer(message.offer);
         case 'error': return this.end(new ViewerError(message.error.message, message.error.kind));
         case 'scene': {

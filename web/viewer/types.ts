@@ -10,7 +10,7 @@ export interface Assets {
   wasm(): Promise<ArrayBuffer>;
   /** A new worker that runs the loader. Rejects with ViewerError if its script cannot be fetched. */
   loaderWorker(): Promise<Worker>;
-  /** The same of the program that reads all formats and writes files, when it is needed. Without it, the viewer reads the
+  /** The same for the program that reads all formats and writes files, when it is needed. Without it, the viewer reads the
    *  formats of the first program, and writes nothing. */
   readonly further?: Pick<Assets, 'wasm' | 'loaderWorker'>;
   /** The page as one file, into which a scene is written. */
@@ -341,7 +341,7 @@ export interface Viewer {
 
   /** Whether added layers are turned so that their up axis is that of the loaded scene, as the program does. */
   upright: boolean;
-  /** Writes the scene as shown: its layers, places, up axis, background, and for html the present view. A worker reads the
+  /** Writes the scene as shown: its layers, places, up axis, background, and for html the current view. A worker reads the
    *  sources again. Emits 'progress'. Rejects with ViewerError. */
   write(format: WrittenFormat, options?: { readonly signal?: AbortSignal }): Promise<WrittenScene>;
 

@@ -108,6 +108,8 @@ class CanvasViewer implements Viewer {
   private readonly resolutionKeeper = new ResolutionKeeper();
   private readonly observer: ResizeObserver;
   private readonly ending = new AbortController();
+  /** Ends reading the sources again for a debug view. */
+  private rereading = new AbortController();
   private loading: Loading | null = null;
   /** Resolves when no load runs, no layers are being added, and no step is under way. */
   private turn: Promise<unknown> = Promise.resolve();
@@ -229,6 +231,7 @@ class CanvasViewer implements Viewer {
 
   load(source: SceneSource, options: Cancelling = {}): Promise<SceneSummary> {
     ++this.cancellations;
+    this.rereading.abort();
     const loaded = this.replace(source, options);
     this.turn = loaded.catch(() => {});
     return loaded;
@@ -427,6 +430,7 @@ class CanvasViewer implements Viewer {
 
   clear(): void {
     ++this.cancellations;
+    this.rereading.abort();
     this.loading?.cancel();
     this.previewed = false;
     this.engine.call('clear');
@@ -638,7 +642,7 @@ class CanvasViewer implements Viewer {
     } finally {
       if (this.shown && !this.lost && this.cancellations === cancellations)
         await this.showNow(name, features).catch((error: unknown) => {
-          this.emit('notice', reason(error));
+          if (!isCancelled(error)) this.emit('notice', reason(error));
         });
     }
   }
@@ -697,7 +701,10 @@ class CanvasViewer implements Viewer {
   focus(x: number, y: number): boolean {
     if (this.lost) return false;
     const found = this.engine.call<boolean>('focus', [x, y, this.canvas.clientWidth, this.canvas.clientHeight]);
-    if (found) this.moved = true;
+    if (found) {
+      this.stop();  // a tour would move the view away again
+      this.moved = true;
+    }
     this.ask();
     return found;
   }
@@ -790,14 +797,18 @@ class CanvasViewer implements Viewer {
     this.drawFrame(performance.now());
   }
 
-  /** Reads all sources again: the renderer holds too little data for debug views. */
+  /** Reads all sources again: the renderer holds too little data for debug views. load(), clear() and dispose() cancel it. */
   private async readForDebugViews(): Promise<void> {
-    const { generation } = this, parts = this.parts();
+    const { generation } = this, parts = this.parts(), { signal } = this.rereading = new AbortController();
+    const requireScene = () => {
+      if (this.generation !== generation) throw new ViewerError('Another scene is open now.', 'cancelled');
+      if (signal.aborted) throw cancelled();
+    };
     if (parts.length === 0) throw new ViewerError('There is no scene for a debug view: open one first.', 'usage');
     for (const [number, { source, description: { name, further }, level }] of parts.entries()) {
-      const files = further ? await this.asGlb(source) :
-        'url' in source ? oneFile(name, await download(urlOf(source), () => {})) : await openFiles(source.files, source.name ?? name);
-      if (this.generation !== generation) throw new ViewerError('Another scene is open now.', 'cancelled');
+      const files = further ? await this.asGlb(source, signal) :
+        'url' in source ? oneFile(name, await download(urlOf(source), requireScene)) : await openFiles(source.files, source.name ?? name);
+      requireScene();
       const splats = this.maxSplats.get(source);
       readWith(this.engine, 'read_for_debug_views', files,
                { source: number, ...(level !== null && { level }), ...(splats !== undefined && { max_splats: splats }) });
@@ -807,8 +818,8 @@ class CanvasViewer implements Viewer {
   }
 
   /** A source that only the program with all formats reads, in a format of this one. */
-  private async asGlb(source: SceneSource): Promise<OpenedFiles> {
-    const { file } = await writeFile(this.assets, { sources: [this.toWrite(source)], document: null, file: 'scene.glb' }, undefined, () => {});
+  private async asGlb(source: SceneSource, signal: AbortSignal): Promise<OpenedFiles> {
+    const { file } = await writeFile(this.assets, { sources: [this.toWrite(source)], document: null, file: 'scene.glb' }, [signal], () => {});
     return oneFile('scene.glb', new Uint8Array(await file.arrayBuffer()));
   }
 
@@ -828,7 +839,7 @@ class CanvasViewer implements Viewer {
           ({ source: parts.indexOf(this.origins.get(id)!.part), index: sourceLayer, name, transform, visible })),
         up: this.getView().up, background: this.background, view: isPage ? this.engine.call('shown_camera', [width, height]) : null,
       },
-    }, signal, (progress) => this.emit('progress', progress));
+    }, [this.ending.signal, ...(signal ? [signal] : [])], (progress) => this.emit('progress', progress));
     return isPage ? { ...written, file: await pageWith(this.assets, written.file, shown.name) } : written;
   }
 
@@ -912,6 +923,7 @@ class CanvasViewer implements Viewer {
 
   dispose(): void {
     this.ending.abort();
+    this.rereading.abort();
     this.detach?.();
     this.observer.disconnect();
     this.loading?.cancel();

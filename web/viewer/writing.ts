@@ -31,16 +31,20 @@ export async function pageWith(assets: Assets, glb: Blob, name: string): Promise
   return new Blob([parts[0]!, parts[1]!, escaped, parts[2]!, await base64(glb), parts[3]!, parts[4]!], { type: 'text/html' });
 }
 
-/** Rejects with ViewerError. */
-export async function writeFile(assets: Assets, message: Omit<WriteMessage, 'kind'>, signal: AbortSignal | undefined,
+/** Each of the signals cancels it. Rejects with ViewerError. */
+export async function writeFile(assets: Assets, message: Omit<WriteMessage, 'kind'>, signals: readonly AbortSignal[],
                                 progress: (progress: LoadProgress) => void): Promise<WrittenScene> {
   if (!assets.further) throw new ViewerError(noProgram, 'usage');
-  const [worker, program] = await Promise.all([assets.further.loaderWorker(), compile(assets.further)]);
+  const compiling = compile(assets.further);
+  compiling.catch(() => {});  // awaited after the worker
+  const worker = await assets.further.loaderWorker();
+  let cancel = () => {};
   try {
+    const program = await compiling;
     return await new Promise((resolve, reject) => {
-      const cancel = () => reject(new ViewerError('Writing was cancelled.', 'cancelled'));
-      if (signal?.aborted) return cancel();
-      signal?.addEventListener('abort', cancel);
+      cancel = () => reject(new ViewerError('Writing was cancelled.', 'cancelled'));
+      if (signals.some(({ aborted }) => aborted)) return cancel();
+      for (const signal of signals) signal.addEventListener('abort', cancel);
       worker.onerror = (event) => {
         event.preventDefault();
         reject(new ViewerError(`The writer cannot run: ${event.message || 'its script is incomplete'}.`, 'device'));
@@ -54,6 +58,7 @@ export async function writeFile(assets: Assets, message: Omit<WriteMessage, 'kin
       worker.postMessage({ kind: 'write', ...message } satisfies ToLoader);
     });
   } finally {
+    for (const signal of signals) signal.removeEventListener('abort', cancel);
     worker.terminate();
   }
 }

@@ -187,6 +187,9 @@ TEST(Sog, NeedsExactlyTheFilesOfItsLevel) {
   meta.insert(meta.find("quats.webp"), "../");
   write_files(folder / "scene", {plain.front()});
   EXPECT_THAT(sog_needs(folder / "scene/meta.json").missing, testing::SizeIs(6));
+  meta.replace(meta.find("../"), 3, "a..");
+  write_files(folder / "scene", {plain.front()});
+  EXPECT_THAT(sog_needs(folder / "scene/meta.json").missing, testing::Contains("a..quats.webp"));
 }
 
 TEST(Sog, WrittenSplatsAreReadWithinTheRounding) {

@@ -19,7 +19,7 @@ export class DownloadSection {
       void loading.write(name, async (signal) => {
         const { file, losses } = await viewer.write(kind, { signal });
         saveFile(name, file);
-        tell([`Saved as ${name}.`, ...losses.map((loss) => `Lost: ${loss}.`)].join(' '));
+        tell([`Saved as ${name}.`, ...losses.map((loss) => `Lost: ${loss.replace(/\.$/, '')}.`)].join(' '));
       });
     });
   }
