@@ -10,7 +10,7 @@ cmake_minimum_required(VERSION 3.25)
 
 set(limits
   "files tests/cli 44: today"
-  "files tests/fuzz 46: one file per reader"
+  "files tests/fuzz 47: one file per reader"
   "files tests/golden 60: images, not sources"
   "files tests/trainer 50: today"
   "files .* 40: a reader sees a folder at one glance"
