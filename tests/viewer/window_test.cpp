@@ -756,7 +756,7 @@ TEST_F(TracedWindow, IsSmoothAtRestAndBeginsAnewAfterAChange) {
 }
 
 TEST_F(TracedWindow, HasTheBackgroundOfTheDocumentAndNoneOverACheckerboard) {
-  Person person({1000, 700});
+  Person person({720, 480});
   person.wait().press(Key::right_bracket).click("tab: Drawing").click("Background").select_all();
   person.type("4080ff").press(Key::l).press(Key::p).wait().without_notes().look("traced");
   const ChildResult result = replay_both(person.click("Checkerboard").look("over checks"));
