@@ -127,7 +127,8 @@ Application::Application(ApplicationOptions options)
       frame_clock_(window_.context(), [this] { return clock(); }),
       worker_(window_, 0),
       writer_(window_, 1),
-      tracer_(window_, std::nullopt) {
+      tracer_(window_, std::nullopt),
+      searcher_(window_, std::nullopt) {
   if (options_.replay) replay_.emplace(*options_.replay);
   state_.settings = settings_of(options_);
   state_.images_option = options_.images;
@@ -186,9 +187,9 @@ std::vector<std::string> Application::errors() const {
 }
 
 bool Application::at_rest() const {
-  return worker_.idle() && writer_.idle() && tracer_.idle() && !state_.animation.plays &&
-         pending_.empty() && clicks_.empty() && state_.requests.empty() && frames_wanted_ <= 0 &&
-         !state_.controls.moving();
+  return worker_.idle() && writer_.idle() && tracer_.idle() && searcher_.idle() &&
+         !state_.animation.plays && pending_.empty() && clicks_.empty() &&
+         state_.requests.empty() && frames_wanted_ <= 0 && !state_.controls.moving();
 }
 
 bool Application::stands_still() const {
@@ -246,7 +247,7 @@ void Application::frame() {
   const bool was_loading = state_.busy.has_value(), was_busy = was_loading || state_.writing;
   try {
     // Also after a job that began and ended between two frames: a new message needs more than one.
-    for (Worker* worker : {&worker_, &writer_, &tracer_})
+    for (Worker* worker : {&worker_, &writer_, &tracer_, &searcher_})
       if (worker->collect()) frames_wanted_ = std::max(frames_wanted_, frames_after_event);
   } catch (const std::exception& error) {
     state_.error("The operation failed", error.what());
@@ -254,6 +255,14 @@ void Application::frame() {
   }
   state_.busy = worker_.status();
   state_.writing = writer_.status();
+  const bool was_searching = state_.searching.has_value();
+  state_.searching = searcher_.status();
+  // It lasts for minutes: the window does not draw all frames meanwhile.
+  if (was_searching != state_.searching.has_value() ||
+      (was_searching && now - searched_ > idle_seconds)) {
+    searched_ = now;
+    frames_wanted_ = std::max(frames_wanted_, 1);
+  }
   // A replay on a slower machine then waits until loading has finished there.
   if (recorded_ && was_loading && !state_.busy)
     recorded_->add(now, std::vector<Event>{AwaitRest{}});

@@ -123,9 +123,9 @@ class Application {
   void carry_out(const TellTraining& request);
   void carry_out(const CancelJob& request);
   void carry_out(const FindCameras& request);
+  void carry_out(const OfferTraining& request);
   void carry_out(const StartTraining& request);
   void carry_out(const StopTraining& request);
-  void carry_out(const MeasureTraining& request);
   void carry_out(const CopyTrainingCommand& request);
   void carry_out(const StopWriting& request);
   void carry_out(const Quit& request);
@@ -189,11 +189,9 @@ class Application {
   void report_refused(const std::vector<RefusedLayer>& layers);
   /// Whether unsaved changes would be lost; then asks the user.
   bool asks_before(const Leave& leave);
-  /// Whether the path is photographs without cameras, or a video; then asks what to do with them.
-  bool asks_about_photographs(const std::filesystem::path& path);
-  /// Opens the dialog that trains a scene from the photographs, with what `tureen train PHOTOS`
-  /// does.
-  void offer_training();
+  /// Opens the dataset of these photographs, or of this video; without one, asks for its name.
+  void ask_about_photographs(const std::filesystem::path& path);
+  void measure_training();
   void ask_for_name(const std::optional<Leave>& then);
   std::filesystem::path own_file() const;
   void compare_when_needed();
@@ -240,6 +238,7 @@ class Application {
   std::optional<Preview> preview_;  // the last one
   std::optional<BackgroundProgram> training_program_;
   double watched_ = 0, last_ = 0;
+  double searched_ = 0;  // when the progress of searcher_ was shown
   int frames_wanted_ = 2;
   int opened_ = 0;                          // how many scenes were opened
   int shown_ = 0;                           // how many stages were shown
@@ -257,7 +256,7 @@ class Application {
   bool quit_ = false, vsync_ = false;
   std::shared_ptr<Rays> rays_;  // kept while State::trace
   std::shared_ptr<tracing::ProgressiveImage> traced_image_;
-  Worker worker_, writer_, tracer_;  // last: their jobs may use all of the above
+  Worker worker_, writer_, tracer_, searcher_;  // last: their jobs may use all of the above
 };
 
 }  // namespace tureen::viewer

@@ -62,7 +62,7 @@ void Application::carry_out(const TakeImage& request) {
   const bool is_covered = state_.photograph() && state_.comparison.show != Comparison::Show::off;
   write(
       job.path, [job](const StageRequest& with) { write_image(job, with); },
-      std::string(by_rays ? ", drawn by rays" : "") +
+      std::string(by_rays ? ", ray-traced" : "") +
           (is_covered ? ", the scene without the photograph" : ""));
 }
 

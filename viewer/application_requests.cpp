@@ -1,9 +1,12 @@
 // Carries out requests for scenes, datasets and the method of drawing.
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "base/extension.hpp"
 #include "formats/dataset/dataset.hpp"
+#include "formats/scene_file.hpp"
+#include "jobs/cameras/camera_run.hpp"
 #include "viewer/application.hpp"
 #include "viewer/names.hpp"
 
@@ -46,7 +49,9 @@ void Application::carry_out() {
 }
 
 void Application::carry_out(const OpenPath& request) {
-  if (open_other(request.path, state_) || asks_about_photographs(request.path)) return;
+  if (open_other(request.path, state_)) return;
+  if (is_photographs(request.path) && !is_scene(request.path))
+    return ask_about_photographs(request.path);
   if (request.discards || !asks_before({request.path})) load({Relation::other, {request.path}});
 }
 
@@ -54,9 +59,17 @@ void Application::carry_out(const AddPaths& request) {
   Loading loading{.relation = state_.stage ? Relation::grown : Relation::other, .paths = {}};
   // A new job replaces the running one, so it also reads that one's files.
   if (loading_) loading = *loading_;
-  bool has_scenes = false;
+  bool has_scenes = false, has_photographs = false;
   for (const fs::path& path : request.paths) {
-    if (open_other(path, state_) || asks_about_photographs(path)) continue;
+    if (open_other(path, state_)) continue;
+    if (is_photographs(path) && !is_scene(path)) {
+      if (std::exchange(has_photographs, true))
+        state_.note("One folder of photographs opens at a time: " + short_name(path) +
+                    " was left out.");
+      else
+        ask_about_photographs(path);
+      continue;
+    }
     loading.paths.push_back(path);
     has_scenes = true;
   }
@@ -92,7 +105,7 @@ void Application::carry_out(const OpenPhotographs& request) {
       state_.comparison = {};
       state_.note(std::to_string(state_.photographs->list.size()) +
                   " photographs: [ and ] select their cameras, C compares.");
-      if (trains) offer_training();
+      if (trains) state_.ask(OfferTraining{.is_for_photographs = true});
     });
   };
   const auto failed = [this, path](const std::string& reason) {
@@ -128,7 +141,7 @@ void Application::watch_files() {
 
 void Application::carry_out(const CancelJob& request) {
   if (!can_be_cancelled(request.kind)) return;
-  worker_.abandon(request.kind);
+  (request.kind == JobKind::cameras ? searcher_ : worker_).abandon(request.kind);
   if (request.kind == JobKind::scene) loading_.reset();
   if (request.kind == JobKind::drawing) {
     preparing_drawing_ = false;

@@ -1,4 +1,4 @@
-// The image by rays, drawn in the background while nothing moves.
+// The ray-traced image of the still view, drawn in the background.
 #include <limits>
 
 #include "runtime/passes/accumulation.hpp"
@@ -29,7 +29,9 @@ struct Application::Rays {
 };
 
 bool Application::traces() const {
-  return state_.trace && state_.stage && !state_.stage->debug_views && stands_still();
+  // Its image is opaque: it would hide the checkerboard.
+  return state_.trace && state_.stage && !state_.stage->debug_views && !state_.shows_checks &&
+         stands_still();
 }
 
 /// Those of the image at rest, where the scene has one.
@@ -61,7 +63,7 @@ void Application::trace(const Camera& camera) {
     view.wanted = traced_samples();
     traced_image_ = std::make_shared<tracing::ProgressiveImage>(camera, view.wanted, max_seconds);
   }
-  const glm::vec3& background = state_.source.scene->info.background;
+  const glm::vec3 background = background_of(state_.source);
   if (!rays_ || rays_->background != background) rays_ = std::make_shared<Rays>(background);
   view.is_running = true;
   const auto work = [this, rays = rays_, image = traced_image_,
@@ -89,10 +91,9 @@ void Application::trace(const Camera& camera) {
   const auto failed = [this](const std::string& reason) {
     state_.trace = false;
     forget_traced();
-    state_.error("The image cannot be drawn by rays", reason);
+    state_.error("The view cannot be ray-traced", reason);
   };
-  tracer_.start(
-      {.kind = JobKind::tracing, .what = "drawing by rays", .work = work, .failed = failed});
+  tracer_.start({.kind = JobKind::tracing, .what = "ray tracing", .work = work, .failed = failed});
 }
 
 }  // namespace tureen::viewer

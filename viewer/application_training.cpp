@@ -5,9 +5,9 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
-#include "formats/scene_file.hpp"
 #include "jobs/cameras/camera_run.hpp"
 #include "viewer/application.hpp"
 #include "viewer/names.hpp"
@@ -26,39 +26,56 @@ std::string joined(const std::vector<std::string>& sentences) {
   return text;
 }
 
-/// Why the cameras cannot be trusted, and the command that uses them all the same.
+/// Why the cameras cannot be trusted, and the command that uses them anyway.
 std::string refusal(const CameraOptions& job, const CameraQuality& quality) {
   const std::string reasons = joined(described(quality.refusals));
   if (quality.registered == 0) return reasons.empty() ? "COLMAP placed no camera." : reasons;
-  return reasons + " This command writes the dataset all the same: " +
+  return reasons + " To write it anyway, run: " +
          quoted_command(
              {"cameras", job.photographs.string(), "-o", job.dataset.string(), "--accept"});
 }
 
 }  // namespace
 
-bool Application::asks_about_photographs(const fs::path& path) {
-  if (!is_photographs(path) || is_scene(path)) return false;
+void Application::ask_about_photographs(const fs::path& path) {
   std::error_code ignored;
   fs::path dataset = (fs::absolute(path, ignored).lexically_normal() / "").parent_path();
   if (!fs::is_directory(path, ignored)) dataset.replace_extension();
   dataset += ".dataset";
-  if (has_cameras({.photographs = path, .dataset = dataset}))
-    state_.ask(OpenPhotographs{.path = dataset, .trains = true});
-  else
-    state_.camera_search = {path, dataset.string()};
-  return true;
+  const auto work = [this, path, dataset](const Worker::Progress&) {
+    const bool is_known = has_cameras({.photographs = path, .dataset = dataset});
+    return Worker::Completion([this, path, dataset, is_known] {
+      if (is_known)
+        state_.ask(OpenPhotographs{.path = dataset, .trains = true});
+      else
+        state_.camera_search = {path, dataset.string()};
+    });
+  };
+  const auto failed = [this, path](const std::string& reason) {
+    state_.error(short_name(path) + " cannot be read", reason, Message::About::opening);
+  };
+  worker_.start({.kind = JobKind::photographs,
+                 .what = "looking for the cameras of " + short_name(path),
+                 .work = work,
+                 .failed = failed});
 }
 
-void Application::offer_training() {
-  TrainingChoice& choice = state_.training_choice;
-  for (const TrainingMethodInfo* method : training_methods())
-    if (method->name == std::string_view("gaussians")) choice.method = method;
-  choice.values["minutes"] = "15";
+void Application::carry_out(const OfferTraining& request) {
+  if (!state_.photographs) return;
+  if (training_program_) return state_.note("A training is already running.");
+  if (request.is_for_photographs) {
+    TrainingChoice& choice = state_.training_choice;
+    for (const TrainingMethodInfo* method : training_methods())
+      if (method->name == std::string_view("gaussians")) choice.method = method;
+    choice.values["minutes"] = "15";
+  }
   state_.scene_to_train = new_trained_scene(state_.photographs->path).string();
+  measure_training();
 }
 
 void Application::carry_out(const FindCameras& request) {
+  if (searcher_.status())
+    return state_.note("A search for cameras is already running. Cancel it first.");
   const CameraOptions job{.photographs = request.photographs, .dataset = request.dataset};
   const auto work = [this, job](const Worker::Progress& progress) {
     const CameraEvents events{
@@ -80,11 +97,10 @@ void Application::carry_out(const FindCameras& request) {
   const auto failed = [this, name = short_name(request.photographs)](const std::string& reason) {
     state_.error("The cameras of " + name + " were not found", reason);
   };
-  // What is saved meanwhile waits: it is another job of this thread.
-  writer_.start({.kind = JobKind::writing,
-                 .what = "finding the cameras of " + short_name(request.photographs),
-                 .work = work,
-                 .failed = failed});
+  searcher_.start({.kind = JobKind::cameras,
+                   .what = "finding the cameras of " + short_name(request.photographs),
+                   .work = work,
+                   .failed = failed});
 }
 
 void Application::carry_out(const StartTraining& request) {
@@ -111,16 +127,21 @@ void Application::carry_out(const StopTraining&) {
   training.is_stopped = true;
 }
 
-void Application::carry_out(const MeasureTraining&) {
-  if (state_.training_seconds) return;
+void Application::measure_training() {
+  if (state_.training_seconds || std::exchange(state_.measures_training, true)) return;
   const auto work = [this](const Worker::Progress&) {
     const double seconds = measured_seconds_per_pixel(0);
-    return Worker::Completion([this, seconds] { state_.training_seconds = seconds; });
+    return Worker::Completion([this, seconds] {
+      state_.measures_training = false;
+      state_.training_seconds = seconds;
+    });
   };
+  // Then there is no forecast.
+  const auto failed = [this](const std::string&) { state_.measures_training = false; };
   worker_.start({.kind = JobKind::forecast,
                  .what = "measuring the speed of training",
                  .work = work,
-                 .failed = [](const std::string&) {}});  // then there is no forecast
+                 .failed = failed});
 }
 
 void Application::carry_out(const CopyTrainingCommand&) {

@@ -90,8 +90,8 @@ void add_arguments(CLI::App& program, Arguments& arguments) {
       "keep one sample per pixel while nothing moves, and in saved images: switches off "
       "\"smooth at rest\" in the panel Drawing");
   program.add_flag("--trace", options.trace,
-                   "while nothing moves, draw by rays: mirrors, glass, splats in their exact order "
-                   "(\"Trace\" in the panel Drawing)");
+                   "ray-trace the still view: mirrors, glass, splats in exact order per pixel "
+                   "(\"Trace\" in the panel Drawing); saved images are traced, too");
   std::vector<std::string> profiles;
   for (const NamedProfile& each : named_profiles) profiles.emplace_back(each.name);
   program

@@ -101,7 +101,7 @@ const std::array table = {
     Shortcut{Key::right_bracket, With::nothing, keys, "next recorded camera",
              [](State& s) { step_recorded(s, 1); }},
     Shortcut{Key::v, With::nothing, keys, "next debug view", next_debug_view},
-    Shortcut{Key::l, With::nothing, keys, "draw by rays while nothing moves",
+    Shortcut{Key::l, With::nothing, keys, "ray-trace the still view",
              [](State& s) { s.trace = !s.trace; }},
     Shortcut{Key::c, With::nothing, keys, "photograph: off, split, alone, difference", next_comparison},
     Shortcut{Key::p, With::nothing, keys, "save the image", save_image},

@@ -123,8 +123,11 @@ struct StartTraining {
 };
 /// Ends this program. Its checkpoint stays.
 struct StopTraining {};
-/// Measures the speed of training on this computer, for forecasts.
-struct MeasureTraining {};
+/// Opens the dialog that trains a scene from the photographs, and measures the speed of training on
+/// this computer for its forecasts.
+struct OfferTraining {
+  bool is_for_photographs = false;  // with the options of `tureen train PHOTOS`
+};
 /// Copies the command that trains a scene from the photographs to the clipboard; that of the
 /// training in progress if it has these photographs.
 struct CopyTrainingCommand {};
@@ -144,7 +147,7 @@ using Request =
                  ShowRecorded, FocusAt, TakeImage, SavePage, CopyCommand, ToggleFullscreen,
                  AddKeyframe, ShowKeyframe, MakeTurntable, FlyAlongCameras, SavePath, LoadPath,
                  WriteAnimation, TellTraining, CancelJob, StartTraining, StopTraining,
-                 MeasureTraining, CopyTrainingCommand, StopWriting, Quit>;
+                 OfferTraining, CopyTrainingCommand, StopWriting, Quit>;
 
 /// The photographs of the dataset, training ones first.
 struct Photographs {
@@ -153,7 +156,7 @@ struct Photographs {
   std::size_t train_count = 0;
   std::vector<std::string> notes;
   FullPhotographs full;        // of the training ones
-  bool stay_is_noted = false;  // a message has said that
+  bool stay_is_noted = false;  // whether the message was shown
 };
 
 /// A training that this window has started.
@@ -213,7 +216,7 @@ struct ImageWish {
   bool transparent = false;
 };
 
-/// The image by rays (application_tracing.cpp).
+/// The ray-traced image (application_tracing.cpp).
 struct TracedView {
   ImageTexture texture;  // with the size of the image; empty: none is drawn yet
   double sharp = 0;      // the part of the pixels that have their own ray, 0..1
@@ -224,7 +227,8 @@ struct TracedView {
 
 /// Whether the user can cancel jobs of this kind. The others end soon.
 constexpr bool can_be_cancelled(JobKind kind) {
-  return kind == JobKind::scene || kind == JobKind::dataset || kind == JobKind::drawing;
+  return kind == JobKind::scene || kind == JobKind::dataset || kind == JobKind::drawing ||
+         kind == JobKind::cameras;
 }
 
 /// A shorter job shows no progress.
@@ -247,7 +251,7 @@ struct State {
   CameraControls controls;
   int recorded = -1;  // the last selected recorded camera; -1: none
   Comparison comparison;
-  bool trace = false;  // the user wants the image by rays
+  bool trace = false;  // the user wants the ray-traced image
   TracedView traced;
   Animation animation;
   Messages messages;
@@ -267,9 +271,10 @@ struct State {
   std::optional<std::string> scene_to_train;  // text of the dialog that starts a training
   TrainingChoice training_choice;             // of that dialog
   std::optional<double> training_seconds;     // measured_seconds_per_pixel()
+  bool measures_training = false;             // training_seconds will come
   bool asks_before_quitting = false;          // the dialog about a training in progress
   bool draw_continuously = false;
-  std::optional<Worker::Status> busy, writing;
+  std::optional<Worker::Status> busy, writing, searching;  // of the workers
   /// Size of the image (the window without the panels at its right), in points and in framebuffer
   /// pixels.
   glm::ivec2 points{1, 1}, pixels{1, 1};

@@ -60,6 +60,14 @@ TypedScene check_typed_scene(const fs::path& scene) {
   return {.remark = fs::exists(scene, error) ? "This file exists. The training replaces it." : ""};
 }
 
+std::string dataset_defect(const fs::path& dataset) {
+  std::error_code error;
+  if (!fs::exists(dataset, error)) return "";
+  if (!fs::is_directory(dataset, error)) return "This is a file: type the name of a new folder.";
+  if (fs::is_empty(dataset, error)) return "";
+  return "This folder exists and is not empty: type another name.";
+}
+
 std::vector<std::string> training_arguments(const fs::path& dataset, const fs::path& scene,
                                             TrainingStart start, const TrainingChoice& choice) {
   std::vector<std::string> arguments{"train", folder_of(dataset).string(), "-o", scene.string(),
@@ -93,19 +101,17 @@ std::string forecast_text(const TrainingChoice& choice, const FullPhotographs& f
   // What is no number counts as 0; `tureen train` reports it.
   const auto number = [](const std::string& text) { return std::strtod(text.c_str(), nullptr); };
   const auto minutes = choice.values.find("minutes");
+  const double typed_minutes = minutes == choice.values.end() ? 0 : number(minutes->second);
   const auto forecast =
-      forecast_of({.minutes = minutes == choice.values.end() ? 0 : number(minutes->second),
-                   .steps = number(choice.steps)},
+      forecast_of({.minutes = typed_minutes, .steps = number(choice.steps)},
                   choice.scale.empty() ? std::nullopt : std::optional(number(choice.scale)), full,
                   *choice.method, seconds_per_pixel);
-  if (!forecast)
-    return "Type the minutes for a forecast; without them, the method has its own "
-           "number of steps.";
+  if (!forecast) return "Enter a time for a forecast. Default: the method's own number of steps.";
   const Camera& first = full.cameras.front();
   const std::string size =
       fmt::format("photographs of {:.0f} \u00d7 {:.0f}", std::round(first.width * forecast->scale),
                   std::round(first.height * forecast->scale));
-  if (minutes != choice.values.end() && !minutes->second.empty())
+  if (typed_minutes > 0)
     return "About " + counted(std::uint64_t(std::max(one_digit(forecast->steps), 1.0))) +
            " steps on " + size + ".";
   return "About " + duration_text(60 * one_digit(forecast->minutes)) + " on " + size + ".";

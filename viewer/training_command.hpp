@@ -31,6 +31,9 @@ struct TypedScene {
 };
 TypedScene check_typed_scene(const std::filesystem::path& scene);
 
+/// Why the cameras of photographs cannot be written to this folder, as typed; empty: they can.
+std::string dataset_defect(const std::filesystem::path& dataset);
+
 enum class TrainingStart { new_run, from_checkpoint };
 
 /// A method with its options as typed; an empty text is the default. `tureen train` checks them.

@@ -25,7 +25,9 @@ enum class JobKind {
   comparison,
   forecast,
   writing,
-  tracing
+  tracing,
+  photographs,
+  cameras
 };
 
 class Worker {

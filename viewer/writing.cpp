@@ -55,7 +55,7 @@ namespace {
 
 /// Tiles keep the memory small. `progress` takes the fraction done.
 void write_traced_image(const ImageJob& job, const std::function<void(double)>& progress) {
-  const glm::vec3& background = job.scene.scene->info.background;
+  const glm::vec3 background = background_of(job.scene);
   tracing::TracedImages images(
       {.samples = job.rays,
        .background = job.transparent ? std::nullopt : std::optional(background)});

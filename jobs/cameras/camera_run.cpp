@@ -312,7 +312,7 @@ CameraOutcome find_cameras(const CameraOptions& options, const CameraEvents& eve
   require_there(options.photographs);
   std::error_code ignored;
   if (fs::exists(options.dataset, ignored) && !fs::is_empty(options.dataset, ignored))
-    throw UsageError(options.dataset.string() + " exists", "choose another name with -o");
+    throw UsageError(options.dataset.string() + " exists", "choose another name");
   return CameraRun(options, events).run();
 }
 

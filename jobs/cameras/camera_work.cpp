@@ -89,8 +89,7 @@ CameraWork::CameraWork(CameraWorkOptions options, const CameraEvents& events)
   std::error_code ignored;
   const bool is_work = fs::exists(folder / inputs_file, ignored);
   if (!is_work && fs::exists(folder, ignored) && !fs::is_empty(folder, ignored))
-    throw UsageError(folder.string() + " exists and is no work folder",
-                     "choose another name with -o");
+    throw UsageError(folder.string() + " exists and is no work folder", "choose another name");
   make_folder(folder);
   lock_.emplace(folder / "lock");
   if (!lock_->is_held()) throw UsageError("another program uses " + folder.string());

@@ -61,6 +61,18 @@ TEST(TrainingCommand, HasAForecast) {
   EXPECT_THAT(text("", "120", "1"), HasSubstr("2 min"));
   EXPECT_THAT(text("", "120", "0.5"), HasSubstr("500 \u00d7 250"));
   EXPECT_EQ(text("x", "", ""), text("", "", ""));
+  EXPECT_EQ(text("0", "120", "1"), text("", "120", "1"));
+}
+
+TEST(TrainingCommand, ChecksTheFolderForCameras) {
+  const fs::path folder = fs::path(testing::TempDir()) / "cameras_typed";
+  fs::remove_all(folder);
+  fs::create_directories(folder / "empty");
+  std::ofstream(folder / "file") << "x";
+  EXPECT_EQ(dataset_defect(folder / "new"), "");
+  EXPECT_EQ(dataset_defect(folder / "empty"), "");
+  EXPECT_THAT(dataset_defect(folder), testing::HasSubstr("is not empty"));
+  EXPECT_THAT(dataset_defect(folder / "file"), testing::HasSubstr("a file"));
 }
 
 TEST(TrainingCommand, ContinuesFromACheckpoint) {

@@ -56,8 +56,20 @@ TEST_F(WindowCameras, ThatAreNotTrustedWriteNoDataset) {
   Person person({1000, 700});
   const ChildResult result =
       replay(person.wait().drop("photos").wait().click("Find the cameras").look("refused"));
-  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.exit_code, 1) << "the window shows the error at the end";
+  EXPECT_THAT(result.err, testing::HasSubstr("4 photographs are too few"));
   EXPECT_FALSE(fs::exists(folder_ / "photos.dataset"));
+}
+
+TEST_F(WindowCameras, AreNotWrittenToAFolderOfOthers) {
+  take(12);
+  fs::create_directories(folder_ / "photos.dataset");
+  write_file(folder_ / "photos.dataset/letter.txt", "x");
+  Person person({1000, 700});
+  const ChildResult result =
+      replay(person.wait().drop("photos").wait().click("Find the cameras").click("Cancel"));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_FALSE(fs::exists(folder_ / "calls"));
 }
 
 }  // namespace window_test

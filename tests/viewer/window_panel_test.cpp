@@ -87,7 +87,7 @@ TEST_F(WindowPanel, ADragOfTheGizmoIsOneStepAndSnaps) {
 
 TEST_F(WindowPanel, ShowsABackgroundAndChecks) {
   Person person({640, 480});
-  person.wait().click("tab: Drawing").click("Checks").point({100, 300}).press(Key::h);
+  person.wait().click("tab: Drawing").click("Checkerboard").point({100, 300}).press(Key::h);
   const ChildResult result = replay(person.look("checks"));
   EXPECT_EQ(result.exit_code, 0) << result.err;
   const Image8 checks = image("checks");

@@ -755,6 +755,20 @@ TEST_F(TracedWindow, IsSmoothAtRestAndBeginsAnewAfterAChange) {
   EXPECT_GE(psnr(image("smooth"), by_rays("soup.glb:1", "64")), min_psnr);
 }
 
+TEST_F(TracedWindow, HasTheBackgroundOfTheDocumentAndNoneOverACheckerboard) {
+  Person person({720, 480});
+  person.wait().press(Key::right_bracket).click("tab: Drawing").click("Background").select_all();
+  person.type("4080ff").press(Key::l).press(Key::p).wait().without_notes().look("traced");
+  const ChildResult result = replay_both(person.click("Checkerboard").look("over checks"));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const glm::u8vec4 blue(0x40, 0x80, 0xff, 255);
+  EXPECT_GT(count(image("soup-1"), blue), 1000);
+  EXPECT_GT(count(image("traced"), blue), 1000);
+  EXPECT_LT(count(image("traced"), red), 100);
+  EXPECT_LT(count(image("over checks"), blue), 1000);
+  EXPECT_GT(count(image("over checks"), red), 1000);
+}
+
 /// A run of 1,000 steps in its 250th.
 void write_run(const fs::path& folder,
                trainer::PrimitiveKind kind = trainer::PrimitiveKind::triangles) {

@@ -1,16 +1,12 @@
 // Compares the image with the photograph of the same camera.
 #include "viewer/panels.hpp"
 #include "viewer/panels/widgets.hpp"
-#include "viewer/training_command.hpp"
 
 namespace tureen::viewer {
 
 void dataset_buttons(State& state) {
   if (!state.started) {
-    if (strong_button("Train a scene")) {
-      state.scene_to_train = new_trained_scene(state.photographs->path).string();
-      state.ask(MeasureTraining{});
-    }
+    if (strong_button("Train a scene")) state.ask(OfferTraining{});
     tip("tureen train with these photographs; asks for the file first");
     beside("Copy the command");
   }

@@ -50,8 +50,8 @@ void background_rows(State& state) {
     if (button("Reset")) state.edit(ChangeBackground{});
   }
   tip("Use the scene's background");
-  check("Checks", &state.shows_checks);
-  tip("Show the image without a background, over checks");
+  check("Checkerboard", &state.shows_checks);
+  tip("Show a checkerboard instead of the background");
 }
 
 /// The rules of rendering splats. Returns whether the choice changed.

@@ -80,7 +80,7 @@ void follow_pointer(State& state, const DocumentLayer& layer, const Gizmo& gizmo
   ImGui::InvisibleButton("grip", {side, side});
   const glm::dvec2 at(pointer.x, pointer.y);
   if (ImGui::IsItemActivated() && hovered)
-    now.drag = GizmoDrag{gizmo, *hovered, at, layer.world_from_layer};
+    now.drag = GizmoDrag{gizmo, *hovered, at, layer.world_from_layer, layer.id};
   if (!ImGui::IsItemActive()) now.drag.reset();
   ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeAll);
   ImGui::End();
@@ -100,6 +100,7 @@ void gizmo_overlay(State& state) {
   GizmoState& now = state.gizmo;
   const bool hovered_before = std::exchange(now.is_hovered, false);
   const DocumentLayer& layer = state.selected_layer();
+  if (now.drag && now.drag->layer != layer.id) now.drag.reset();  // another one was selected
   if (now.tool == GizmoTool::off || !layer.visible || !state.show_interface ||
       state.animation.plays)
     return now.drag.reset();

@@ -31,8 +31,8 @@ void progress_overlay(State& state) {
     return status && status->seconds > progress_delay_seconds;
   };
   const bool busy = shown(state.busy) && can_be_cancelled(state.busy->kind);
-  const bool writing = shown(state.writing);
-  if (!busy && !writing) return;
+  const bool writing = shown(state.writing), searching = shown(state.searching);
+  if (!busy && !writing && !searching) return;
   const ImVec2 window = ImGui::GetIO().DisplaySize;
   const float em = ImGui::GetFontSize();
   const float width = std::min(30 * em, float(state.points.x) - 1.5f * em);
@@ -43,6 +43,7 @@ void progress_overlay(State& state) {
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing);
   if (writing && job_rows(*state.writing)) state.ask(StopWriting{});
+  if (searching && job_rows(*state.searching)) state.ask(CancelJob{state.searching->kind});
   if (busy && job_rows(*state.busy)) state.ask(CancelJob{state.busy->kind});
   ImGui::End();
 }

@@ -57,7 +57,7 @@ void losses_dialog(State& state) {
   if (!dialog.is_open()) return;
   paragraph("Lost in " + short_name(losses->request.file) + ":");
   for (const std::string& each : losses->lost) aside(each);
-  const bool saves = strong_button("Save all the same") || enter_pressed();
+  const bool saves = strong_button("Save anyway") || enter_pressed();
   ImGui::SameLine();
   const bool renames = button("Another name");
   ImGui::SameLine();

@@ -1,4 +1,4 @@
-// The image by rays: its switch and progress, and its place over that of the rasteriser.
+// The ray-traced image: its switch and progress, and its place over that of the rasteriser.
 #include "viewer/panels.hpp"
 #include "viewer/panels/widgets.hpp"
 
@@ -6,18 +6,18 @@ namespace tureen::viewer {
 
 void tracing_rows(State& state) {
   check("Trace", &state.trace);
-  tip("While nothing moves, draw by rays: mirrors, glass, and splats in their exact order at each "
-      "pixel. Saved images are drawn in this way, too");
+  tip("Ray-trace the still view: mirrors, glass, splats in exact order per pixel. Saved images are "
+      "traced, too.");
   if (!state.trace) return;
   const TracedView& traced = state.traced;
   if (state.stage->debug_views) {
-    aside("Debug views are drawn without rays.");
+    aside("Debug views are not ray-traced.");
+  } else if (state.shows_checks) {
+    aside("The view over the checkerboard is not ray-traced.");
   } else if (traced.samples > 0) {
-    const char* ends = traced.is_complete ? "" : "; more follow";
-    aside(
-        fmt::format("By rays, {} of {} samples per pixel{}", traced.samples, traced.wanted, ends));
+    aside(fmt::format("{} of {} samples per pixel", traced.samples, traced.wanted));
   } else {
-    aside(traced.texture ? "By rays, coarse; becoming sharp" : "Rays begin when nothing moves.");
+    aside(traced.texture ? "Preview; refining" : "Tracing starts when the view is still.");
     progress_bar(traced.sharp);
   }
 }

@@ -40,11 +40,8 @@ void option_field(const MethodOption& option, std::string& value) {
 }
 
 void size_field(TrainingChoice& choice) {
-  static constexpr std::pair<const char*, const char*> scales[] = {{"", "by the minutes, or full"},
-                                                                   {"1", "full"},
-                                                                   {"0.5", "a half"},
-                                                                   {"0.25", "a quarter"},
-                                                                   {"0.125", "an eighth"}};
+  static constexpr std::pair<const char*, const char*> scales[] = {
+      {"", "automatic"}, {"1", "full"}, {"0.5", "1/2"}, {"0.25", "1/4"}, {"0.125", "1/8"}};
   const auto* const chosen = std::ranges::find(
       scales, choice.scale, [](const auto& each) { return std::string(each.first); });
   field("photographs");
@@ -53,7 +50,7 @@ void size_field(TrainingChoice& choice) {
       if (list_item(words, scale == choice.scale)) choice.scale = scale;
     ImGui::EndCombo();
   }
-  tip("Their width and height in the training: smaller ones give more steps in the same time");
+  tip("Scale of the photographs. Smaller ones allow more steps in the same time.");
 }
 
 void method_fields(TrainingChoice& choice) {
@@ -81,7 +78,7 @@ void method_fields(TrainingChoice& choice) {
 /// The length and the size of the chosen training, by the speed of this computer.
 void forecast_row(const State& state) {
   const FullPhotographs& full = state.photographs->full;
-  if (full.cameras.empty()) return;
+  if (full.cameras.empty() || !(state.training_seconds || state.measures_training)) return;
   fact("Forecast", state.training_seconds
                        ? forecast_text(state.training_choice, full, *state.training_seconds)
                        : "measuring this computer ..");

@@ -235,8 +235,7 @@ bool escape_pressed() { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_E
 bool enter_pressed() {
   // Not in the frame in which a dialog opens: Enter in the dialog before may have opened it.
   return !ImGui::IsWindowAppearing() &&
-         (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false) ||
-          ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_KeyPadEnter), false));
+         ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
 }
 
 Dialog::Dialog(const char* title, bool open) {

@@ -58,6 +58,8 @@ std::optional<glm::dvec3> in_plane(const Gizmo& gizmo, const glm::dvec3& normal,
                                    const glm::dvec2& at) {
   const glm::dvec3 direction = ray(gizmo.camera, at), to_eye = gizmo.camera.eye() - gizmo.center;
   const double slope = glm::dot(direction, normal), t = -glm::dot(to_eye, normal) / slope;
+  // A drag may go on at a smaller angle than that at which it can begin: perspective makes it
+  // smaller away from the centre.
   if (std::abs(slope) < 0.5 * least_plane_sine || !(t > 0)) return {};
   return to_eye + t * direction;
 }
@@ -70,7 +72,8 @@ std::vector<glm::dvec3> ring(const Gizmo& gizmo, int axis) {
     const double angle = 2 * glm::pi<double>() * i / ring_points;
     return std::cos(angle) * u + std::sin(angle) * v;
   };
-  // A ring that is seen from its axis faces the eye all around, but for perspective.
+  // A ring that is seen from its axis faces the eye all around: the cosines are 0, apart from
+  // rounding and a few degrees between its axis and the line of sight.
   const auto faces = [&](int i) { return glm::dot(point(i), to_eye) > -0.1; };
   int first = 0;
   while (first < ring_points && !(faces(first) && !faces(first - 1))) ++first;
@@ -134,10 +137,12 @@ std::optional<double> turn_of(const GizmoDrag& drag, const glm::dvec2& to) {
   }
   // By the direction in the image in which the point of the ring under the pointer goes.
   const std::vector<glm::dvec3> points = ring(gizmo, drag.handle.axis);
+  // Farther than any point of the image: behind the camera.
+  constexpr double far_away = 1e9;
   const auto nearest =
       std::min_element(points.begin(), points.end(), [&](const auto& a, const auto& b) {
         const auto away = [&](const glm::dvec3& point) {
-          return glm::distance(gizmo.project(point).value_or(glm::dvec2(1e9)), drag.from);
+          return glm::distance(gizmo.project(point).value_or(glm::dvec2(far_away)), drag.from);
         };
         return away(a) < away(b);
       });

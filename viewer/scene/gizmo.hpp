@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "scene/camera.hpp"
+#include "scene/document/document.hpp"
 #include "scene/layer_place.hpp"
 
 namespace tureen::viewer {
@@ -59,6 +60,7 @@ struct GizmoDrag {
   GizmoHandle handle;
   glm::dvec2 from{0.0};
   glm::dmat4 world_from_layer{1.0};
+  LayerId layer = {};
 };
 enum class Snapping { off, on };
 struct GizmoChange {
