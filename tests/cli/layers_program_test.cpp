@@ -276,7 +276,7 @@ TEST_F(LayersProgram, ConvertExtractsALayer) {
 }
 
 TEST_F(LayersProgram, TheMemoryLimitIsForEachScene) {
-  EXPECT_THAT(run({"info", "--help"}).out, HasSubstr("each scene or dataset"));
+  EXPECT_THAT(run({"info", "--help"}).out, HasSubstr("per scene or dataset"));
 }
 
 TEST_F(LayersProgram, InfoOfOneTurnedLayerNamesItsPlace) {
