@@ -5,6 +5,7 @@
 
 #include "base/threads/on_all_cores.hpp"
 #include "oracle/oracle_images.hpp"
+#include "runtime/gl/api.hpp"
 #include "tracing/traced_images.hpp"
 
 namespace tureen::tradeoff {
