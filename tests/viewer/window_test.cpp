@@ -1,6 +1,7 @@
 // The window, as a person uses it: sessions replayed under an X server that draws into memory. The
 // window is compared with goldens, and its images with `tureen render`. The file exceeds 600 lines:
-// all sessions share one fixture, with its scenes, its X server and its folder.
+// its sessions share scenes and helpers; those of the panel and of photographs have files of their
+// own.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/prctl.h>

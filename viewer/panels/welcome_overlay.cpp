@@ -5,6 +5,7 @@
 
 #include "base/decimal_text.hpp"
 #include "base/platform/program_folder.hpp"
+#include "formats/scene_file.hpp"
 #include "viewer/names.hpp"
 #include "viewer/panels.hpp"
 #include "viewer/panels/widgets.hpp"
@@ -48,6 +49,17 @@ void dataset_rows(State& state) {
   ImGui::Spacing();
 }
 
+/// ".glb, .gltf, .off, folders (DiffSoup export, SOG)".
+std::string read_formats() {
+  std::string files, folders;
+  for (const FormatInfo& format : known_formats()) {
+    if (!format.can_read) continue;
+    for (const std::string& extension : format.read_extensions) files += extension + ", ";
+    if (format.is_folder) folders += (folders.empty() ? "" : ", ") + format.name;
+  }
+  return files + "folders (" + folders + ")";
+}
+
 }  // namespace
 
 void welcome_overlay(State& state) {
@@ -81,11 +93,9 @@ void welcome_overlay(State& state) {
   recent_rows(state);
   ImGui::Spacing();
   heading("Supported formats");
-  aside(
-      "Scenes: .glb, .gltf, .off, .ply, .splat, .spz, .sog, .ksplat, .usda, .usdz, .npz, .obj, "
-      ".pt, "
-      "DiffSoup exports, MobileNeRF models. Photographs: with cameras of COLMAP, Bundler or "
-      "transforms.json; a folder or a video without.");
+  aside("Scenes: " + read_formats() +
+        ". Photographs: with cameras of COLMAP, Bundler or transforms.json; a folder or a video "
+        "without.");
   ImGui::End();
 }
 
