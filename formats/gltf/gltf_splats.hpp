@@ -26,7 +26,7 @@ bool has_splats(const tinygltf::Primitive& primitive);
 
 class GltfSplatBuilder {
  public:
-  /// Of the options, `keep_rows` applies, and to SPZ files `max_splats`; rows are elements of the
+  /// Uses the options `keep_rows` and, for SPZ files, `max_splats`. Rows are elements of the
   /// accessors or of an SPZ file. `read_spz`: null where SPZ files are not supported.
   GltfSplatBuilder(GltfDocument& document, const ReadOptions& options, ReadSpz read_spz)
       : document_(document), options_(options), read_spz_(read_spz) {}

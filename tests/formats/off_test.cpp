@@ -237,11 +237,13 @@ TEST(Off, SaysWhatWritingLosesInEnglish) {
   Scene scene = scene_of(soup, {1, 0, 0});
   scene.info.background = glm::vec3(1);
   scene.cameras.resize(1);
+  scene.first_view = scene.cameras[0];
   TemporaryFolder folder;
   EXPECT_THAT(
       write_off(scene, folder / "a.off"),
       ElementsAre("OFF stores no up axis; readers assume z.", "OFF holds no background colour.",
-                  "OFF holds no cameras.", "OFF holds colours in 8 bits: they are rounded."));
+                  "OFF holds no cameras.", "OFF holds no first view.",
+                  "OFF holds colours in 8 bits: they are rounded."));
   // Rounding is half up, so an alpha of one half stays visible.
   EXPECT_THAT(face_rgba(read_off(folder / "a.off")),
               ElementsAre(glm::vec4(128 / 255.0f, 0, 0, 128 / 255.0f)));
