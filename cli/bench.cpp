@@ -58,11 +58,11 @@ void add_case_options(Command& command, BenchCaseArguments& options) {
           "cases to measure, separated by commas: tureen (the plan), tureen-fragment and "
           "tureen-compute (triangles: the plan with --shading), raster and tiles (splats: the plan "
           "with --blend), generic (no specialisation), baseline, triangles and copy (upper limits "
-          "of the speed, see --ceilings); ratios are relative to the first case")
+          "on speed, see --ceilings); ratios are relative to the first case")
       .comma_list();
   command.add_flag("--ceilings", options.ceilings,
-                   "also measure two upper limits of the speed: drawing the triangles with an "
-                   "empty fragment shader, and copying the same number of pixels");
+                   "also measure two upper limits on speed: drawing the triangles with an empty "
+                   "fragment shader, and copying the same number of pixels");
 }
 
 /// Throws UsageError for unknown names.
@@ -230,7 +230,7 @@ Examples:
   tureen bench soup.glb --only tureen,triangles --seconds 60
   tureen bench soup.glb --only tureen-fragment,tureen-compute
                                                           fragment against compute shaders
-  tureen bench splats.ply --only raster,baseline          splats by the device alone
+  tureen bench splats.ply --only raster,baseline          splats on the GPU only
 
 Exit codes: 0 done, 1 slower than --fail-slower allows, 2 wrong usage, 3 the scene or the
 cameras cannot be read, 4 no OpenGL context, 5 the scene does not fit on the device, or

@@ -55,14 +55,14 @@ void add_cameras(Command& program) {
   auto options = std::make_shared<CamerasCommand>();
   Command command = program.add_command("cameras", "Find the cameras of photographs or of a video");
   command.footer(
-      R"(Finds where photographs were taken, and the lens, with COLMAP 3.8 (no GPU), and writes a
-dataset for tureen train: DATASET with the folders images and sparse, and a plot, cameras.svg. The
-sharpest frames of a video become photographs (ffmpeg). Prints how many photographs have a camera and
-how exact the cameras are, and stops, with what to photograph again, if they cannot be trusted. After
-Ctrl-C, the same command continues.
+      R"(Finds the pose and the lens of each photograph with COLMAP 3.8 (no GPU), and writes a dataset for
+tureen train: DATASET with the folders images and sparse, and a plot, cameras.svg. From a video, it
+takes the sharpest frames (ffmpeg). Prints how many photographs have a camera and how accurate the
+cameras are. If they cannot be trusted, stops and prints what to photograph again. After Ctrl-C, the
+same command continues.
 
-For a dataset that has cameras and no points, keeps the cameras, and writes points3D.ply beside them,
-from which training begins.
+For a dataset with cameras but without points, keeps the cameras and writes points3D.ply beside
+them, where training starts.
 
 Examples:
   tureen cameras photos                        writes photos.dataset
@@ -81,7 +81,7 @@ do not determine the cameras, 5 interrupted, COLMAP failed, or the dataset canno
   add_camera_options(command, options->job);
   command
       .add_option("--threads", options->job.threads,
-                  "number of processor threads; one per core by default")
+                  "number of CPU threads; one per core by default")
       .check(between(1, 1024))
       .value_name("N");
   command.add_flag("--json", options->json,

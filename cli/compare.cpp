@@ -170,10 +170,9 @@ Exit codes: 0 done, 1 worse than --tolerance, 2 wrong usage, 3 an input cannot b
   add_choice<SsimBorder>(command, "--ssim-border MODE", options->metrics.ssim_border, borders,
                          "SSIM window at the image border: zero_pad (default, as in 3DGS), valid, "
                          "or uniform7 (scikit-image)");
-  command.add_option(
-      "--background COLOR", options->background,
-      "colour behind transparent pixels: a name, #rrggbb, or r,g,b from 0 to 1; by default black, "
-      "that of scene A for scenes");
+  command.add_option("--background COLOR", options->background,
+                     "colour behind transparent pixels: a name, #rrggbb, or r,g,b from 0 to 1; by "
+                     "default black for images, scene A's own for scenes");
   command.add_option("--diff OUT.png", options->diff,
                      "image to write: A, B and a heat map of their differences, side by side");
   add_memory_option(command);

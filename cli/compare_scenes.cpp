@@ -99,7 +99,7 @@ void add_scene_comparison(Command& command, SceneComparison& comparison) {
   add_split_option(command, comparison.split);
   command.add_option("-o,--output FOLDER", comparison.folder,
                      "with DATASET: folder for report.html, compare.json, and an image per view: "
-                     "photograph, A, B, and the difference of A and B side by side");
+                     "photograph, A, B, and the difference between A and B side by side");
   add_drawing_options(command, comparison.drawing);
 }
 

@@ -271,8 +271,8 @@ std::string written_formats() {
     text += "  " + extensions + format.name + ": " + format.description + "\n";
   }
   return text +
-         "  .html           page: Tureen's GLB and the viewer from ./dev web; opens by "
-         "double-click\n";
+         "  .html           page: Tureen's GLB and the viewer from ./dev web; opens with a double "
+         "click\n";
 }
 
 void add_moving_options(Command& command, ConvertOptions& options) {
@@ -284,23 +284,21 @@ void add_moving_options(Command& command, ConvertOptions& options) {
         move.angles = parse_vector(text);
         moves();
       },
-      "turn the whole scene with its cameras by these degrees about the world's x, then y, then z "
-      "axis");
+      "rotate the whole scene with its cameras: degrees about the world's x, then y, then z axis");
   command.add_option(
       "--resize FACTOR",
       [&move, moves](const std::string& text) {
         move.scale = *number_from(text);
         moves();
       },
-      "make the whole scene this many times as large, about the world's origin",
-      between(1e-9, 1e9));
+      "scale the whole scene about the world's origin", between(1e-9, 1e9));
   command.add_option(
       "--translate X,Y,Z",
       [&move, moves](const std::string& text) {
         move.position = parse_vector(text);
         moves();
       },
-      "move the whole scene, after turning and resizing it");
+      "move the whole scene, after --rotate and --resize");
 }
 
 }  // namespace
@@ -313,8 +311,8 @@ void add_convert(Command& program) {
       R"(The command omits data that the format cannot store, and prints these losses. If the format rounds
 splats, it draws 16 views of the source and of OUT, and prints their PSNR.
 
-With -o OUT, all other arguments are scenes, and each becomes a layer of one scene. Only .glb and
-.html store several layers.
+With -o OUT, all other arguments are scenes, and each becomes a layer of one scene. Only .glb, .html,
+.usda and .usdz store several layers.
 
 Examples:
   tureen convert trained.pt soup.glb          Tureen's own format
@@ -332,9 +330,9 @@ Examples:
   tureen convert room.glb ball.glb -o both.glb --material ball=glass:1.33
                                               stores the layer "ball" as water, for rays
   tureen convert table.glb guitar.ply -o room.glb --place guitar=at:0,0,1.2/scale:0.5
-                                              one layer on the other, made smaller
+                                              one layer on the other, scaled down
   tureen convert soup.glb turned.ply --rotate 90,0,0 --resize 0.01
-                                              the whole scene turned, and in metres
+                                              the whole scene rotated, and in metres
   tureen convert soup.glb view.glb --view 12  programs show camera 12 first
   tureen convert soup.glb soup.html           a page to share
   tureen convert foreign.glb soup.glb --vertex-colors srgb --up 0,0,1
@@ -347,7 +345,7 @@ Examples:
   command.add_option("OUT", options->second, "file or folder to write; with -o, a second scene");
   command.add_option("FURTHER", options->further, "with -o: further scenes");
   command.add_option("-o,--output OUT", options->output, "file or folder to write, instead of OUT");
-  command.add_option("--layer NAME", options->layer, "write only this layer, with its transform");
+  command.add_option("--layer NAME", options->layer, "write only this layer, at its place");
   add_reading_options(command, options->scene.choice);
   add_placing_options(command, options->scene.choice);
   add_moving_options(command, *options);
@@ -355,9 +353,8 @@ Examples:
                      "store the view that programs show first: the index of a recorded camera, or "
                      "FILE[:N] as for render --camera");
   add_memory_option(command);
-  command.add_flag(
-      "--no-measure", options->no_measure,
-      "do not compare images of the source and of OUT, where its format rounds splats");
+  command.add_flag("--no-measure", options->no_measure,
+                   "do not measure the loss in images if the format rounds splats");
   command.add_option("--spz-version N", options->writing.spz_version,
                      "version of .spz: 4 (default), or 3 for programs without version 4",
                      between(3.0, 4.0));

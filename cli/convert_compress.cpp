@@ -128,12 +128,11 @@ std::vector<std::string> losses_of(const CompressResult& result, const DatasetAr
 void add_compressed_arguments(Command& command, CompressArguments& arguments) {
   const Option compressed =
       command.add_flag("--compress,--slim", arguments.compressed,
-                       "write a compressed GLB, with loss: the smallest within --max-error");
+                       "write a lossy compressed GLB: the smallest within --max-error");
   command
-      .add_option(
-          "--max-error DB", arguments.max_error_db,
-          "with --compress: largest loss in dB of the PSNR against photographs, 0.1 by default",
-          between(1e-4, 20.0))
+      .add_option("--max-error DB", arguments.max_error_db,
+                  "with --compress: largest loss of PSNR against photographs in dB, 0.1 by default",
+                  between(1e-4, 20.0))
       .needs(compressed);
   const Option photographs =
       command

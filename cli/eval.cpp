@@ -140,7 +140,7 @@ Examples:
   tureen eval soup.glb lego --supersample 4     with 4x4 samples per pixel
   tureen eval soup.glb lego -o views            images with heat maps, and a report
   tureen eval soup.glb lego --json              the metrics for scripts
-  tureen eval splats.ply fox                    splats, blended as their method does
+  tureen eval splats.ply fox                    splats, blended as in their method
   tureen eval splats.ply fox --renderer trace   the same in exact order along each ray
   tureen eval soup.glb lego --ssim-border uniform7    SSIM as in DiffSoup on synthetic
                                                       scenes

@@ -516,18 +516,17 @@ Examples:
   tureen info soup.glb
   tureen info house.glb fox.glb               the layers of a scene from two files
   tureen info soup.glb --json | jq .triangles
-  tureen info splats.ply --stats              splats per pixel, splats without use, bytes
+  tureen info splats.ply --stats              splats per pixel, unseen splats, bytes
   tureen info soup.glb --strict               a check for scripts
   tureen info photographs -o cameras.svg      a dataset: sizes, lenses, points, plot of cameras)");
   add_scene_arguments(command, options->scene);
   command.add_option("-o,--output PLOT.svg", options->plot,
-                     "of a dataset: plot of its cameras from above and from the side");
+                     "for a dataset: plot of its cameras from above and from the side");
   add_memory_option(command);
   command.add_flag("--json", options->json, "print all properties as JSON to standard output");
-  command.add_flag(
-      "--stats", options->stats,
-      "of splats: draw 16 views; print the splats blended per pixel, the splats that no "
-      "view shows, and the bytes of each column");
+  command.add_flag("--stats", options->stats,
+                   "for splats: draw 16 views; print the splats blended per pixel, the splats that "
+                   "no view shows, and the bytes per column");
   command.add_flag("--strict", options->strict,
                    "exit with 1 if lint finds anything or the scene fits only on some devices");
   command.does([options] { return inform(*options); });

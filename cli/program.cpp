@@ -41,8 +41,7 @@ void add_commands(Command& program, const std::vector<std::string>& arguments) {
 
 int run_program(int argc, char** argv) {
   catch_interrupts();
-  CommandLine line(
-      "tureen", "Trains, draws, measures and converts triangle soups; draws and converts splats.");
+  CommandLine line("tureen", "Trains, draws, measures and converts triangle soups and splats.");
   Command program = line.program();
   program.add_text_flag(
       "--version", [] { return std::string("tureen ") + program_version(); },

@@ -326,8 +326,8 @@ void add_options(Command& command, const std::shared_ptr<RenderOptions>& options
       "--path or --turntable, .mp4 or .webm writes a video with ffmpeg");
   add_view_options(command, options->views);
   command.add_option("--background COLOR", options->background,
-                     "colour of pixels without a triangle: a name, #rrggbb, transparent, or r,g,b "
-                     "from 0 to 1; the scene's own by default");
+                     "colour behind the scene: a name, #rrggbb, transparent, or r,g,b from 0 to 1; "
+                     "the scene's own by default");
   add_material_option(command, options->materials);
 }
 
@@ -337,8 +337,8 @@ void finish(Command& command, const std::shared_ptr<RenderOptions>& options,
   command.add_flag("--json", options->json,
                    "print the images, the plan and the frame times as JSON to standard output");
   command.add_flag("--verbose", options->verbose,
-                   "also print the plan, the device and the time of a frame");
-  command.add_flag("--force", options->force, "replace images that exist");
+                   "also print the plan, the device and the frame time");
+  command.add_flag("--force", options->force, "replace existing images");
   command.does([options, check] {
     check();
     return render(*options);
@@ -350,7 +350,7 @@ void add_gl_options(Command& command, const std::shared_ptr<RenderOptions>& opti
   add_drawing_scale(command, options->drawing);
   command.add_flag(
       "--as-published", options->drawing.plan.as_published,
-      "also cull splats by the rules of their authors' code that depend on the resolution");
+      "also apply the culling rules in the authors' code that depend on the resolution");
   add_measured_outputs(command, options->measured);
   Option show = add_debug_view_option(command, options->show);
   for (const char* other :
@@ -367,16 +367,16 @@ void add_gl_options(Command& command, const std::shared_ptr<RenderOptions>& opti
 void add_render(Command& program) {
   Command command = program.add_command("render", "Draw images of a scene");
   command.footer(
-      R"(The default view is the first view that the scene stores (convert --view); without one, the
-recorded camera that looks most directly at what the cameras photographed, from their usual distance
-and height. Without cameras, it is a view of the whole scene from the front, slightly from the right
-and from above. Orbits and turntables of captured places go around that point, among the cameras.
+      R"(The default view is the first view stored in the scene (convert --view), otherwise the recorded
+camera that looks most directly at the point that the cameras look at, from their usual distance and
+height. Without cameras, it shows the whole scene from the front, slightly from the right and above.
+Orbits and turntables of captured places circle that point, among the cameras.
 
 Examples:
   tureen render soup.glb -o image.png
   tureen render house.glb fox.glb -o both.png             several scenes in one image
   tureen render table.glb guitar.ply -o both.png --place guitar=at:0,0,1.2/scale:0.5
-                                                          one layer moved and made smaller
+                                                          one layer moved and scaled down
   tureen render soup.glb --orbit 8 -o orbit_%02d.png      also writes contact_sheet.png
   tureen render soup.glb --eye 3,0,1 --target 0,0,0.5 --up 0,0,1 --fov 35
   tureen render soup.glb --camera transforms.json:12 --size 540x960
@@ -405,15 +405,15 @@ Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 4 no OpenGL conte
 void add_trace(Command& program) {
   Command command = program.add_command("trace", "Ray-trace images, with mirrors and glass");
   command.footer(
-      R"(The short form of `tureen render --renderer trace`, which takes the same options. Splats are blended in their exact order on each ray. Materials of meshes
-are those that the file stores, or those of --material.
+      R"(Short for tureen render --renderer trace, with the same options. Splats are blended in exact order
+along each ray. Materials of meshes come from the file or from --material.
 
 Examples:
   tureen trace scene.glb -o image.png
   tureen trace splats.ply ball.glb --samples 16 -o smooth.png   16 rays per pixel
   tureen trace scene.glb --turntable 4 -o turn.mp4              a video; needs ffmpeg
 
-Ctrl-C keeps the images that are complete, and the samples of the current one.
+Ctrl-C keeps the finished images, and the finished samples of the current one.
 
 Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 5 an image cannot be written.)");
   const auto options = std::make_shared<RenderOptions>();

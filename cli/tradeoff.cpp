@@ -145,8 +145,7 @@ on the device, or the output cannot be written.)");
        {"trace", tradeoff::Samples::traced}},
       "reference for edits, drawn by the CPU in double precision: device (default, vertices "
       "rounded as on the device, splats in the order of their centres) or exact (vertices not "
-      "rounded, splats in exact order; the error then includes those of the device), or trace "
-      "(exact "
+      "rounded, splats in exact order; the error then includes the device's own), or trace (exact "
       "by rays, faster, splats in single precision)");
   const Option full = command.add_flag(
       "--full", [options] { options->effort = Effort::full; },

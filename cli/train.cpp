@@ -379,15 +379,14 @@ void add_file_options(Command& command, TrainOptions& options) {
                   "steps between checkpoints in OUT.checkpoint; every two minutes by default")
       .check(between(1, 10'000'000))
       .value_name("N");
-  command.add_flag("--resume", job.resume,
-                   "continue from OUT.checkpoint; gives the same result as an uninterrupted run; "
-                   "needs nothing but -o");
+  command.add_flag(
+      "--resume", job.resume,
+      "continue from OUT.checkpoint; gives the same result as an uninterrupted run; needs only -o");
   command
       .add_option(
           "--preview-every", job.preview_every,
-          "steps between previews; a preview is an image in the folder OUT.previews: a test "
-          "view beside its photograph; no previews by default; also a video, OUT-previews.mp4, if "
-          "ffmpeg is installed")
+          "steps between previews, images in the folder OUT.previews of a test view beside its "
+          "photograph; no previews by default; with ffmpeg also a video, OUT-previews.mp4")
       .check(between(1, 10'000'000))
       .value_name("N");
   command.add_flag(
@@ -411,9 +410,9 @@ scene on the test views. Ctrl-C writes a checkpoint; --resume continues from it.
 equal scenes on a CPU, with any number of threads. For all methods but diffsoup, --max-memory also
 limits the number of splats.
 
-DATASET may also be a folder of photographs without cameras, or a video: COLMAP then finds the
-cameras first, as tureen cameras does, and Gaussians are trained for 15 minutes, from photographs
-with at most 1,000 pixels per side, unless options choose otherwise.
+DATASET may also be a folder of photographs without cameras, or a video: COLMAP first finds the
+cameras, as tureen cameras does. By default, Gaussians are then trained for 15 minutes, from
+photographs of at most 1,000 pixels per side.
 
 Examples:
   tureen train photos -o scene.glb                           photographs, or a video: walk.mp4
@@ -422,11 +421,11 @@ Examples:
   tureen train -o fox.glb --resume                           after Ctrl-C
   tureen train lego -o lego.glb --minutes 5                  as many steps as fit in 5 minutes
   tureen train lego -o lego.ply --method gaussians           a file for other viewers
-  tureen train lego -o lego.glb --method triangles --opaque    a soup with one color each
+  tureen train lego -o lego.glb --method triangles --opaque   a soup, one colour per triangle
   tureen train lego -o lego.glb --method neural --max-bytes 100000   a very small scene
-  tureen train lego -o lego.glb --preview-every 500          write previews
-  tureen train lego -o lego.glb --watch                      watch the training in a window
-  tureen train lego -o better.glb --init lego.glb            continue from a trained soup
+  tureen train lego -o lego.glb --preview-every 500          writes previews
+  tureen train lego -o lego.glb --watch                      shows the training in a window
+  tureen train lego -o better.glb --init lego.glb            continues from a trained soup
   tureen train lego --print-config > lego.json               all constants, for --config
 
 Exit codes: 0 done, 2 wrong usage, or --resume with another dataset or other constants,
@@ -441,7 +440,7 @@ Exit codes: 0 done, 2 wrong usage, or --resume with another dataset or other con
   add_camera_options(command, options->cameras);
   command
       .add_option("--threads", options->job.threads,
-                  "number of processor threads; one per core by default")
+                  "number of CPU threads; one per core by default")
       .check(between(1, 1024))
       .value_name("N");
   command.add_flag("--print-config", options->print_config,

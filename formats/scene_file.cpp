@@ -104,7 +104,7 @@ const std::vector<Format>& formats() {
   static const std::vector<Format> table{
       {.name = "GLB",
        .description = "Tureen's own format, streamable and exact; any glTF viewer shows its mean "
-                      "colours. With --compress: with loss, and only Tureen reads it",
+                      "colours. With --compress: lossy, for Tureen only",
        .read_extensions = {".glb", ".gltf"},
        .written_extensions = {".glb"},
        .recognises = [](const Candidate& c) { return !c.is_folder && is_gltf(c.head); },
@@ -216,7 +216,7 @@ const std::vector<Format>& formats() {
 #ifndef __EMSCRIPTEN__
       // After MobileNeRF, which reads its shapes.
       {.name = "OBJ",
-       .description = "triangles with colours of vertices, colours of materials and textures",
+       .description = "triangles with vertex colours, material colours and textures",
        .read_extensions = {".obj"},
        .written_extensions = {".obj"},
        // No content is a sign of it.

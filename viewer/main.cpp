@@ -47,12 +47,11 @@ struct Arguments {
 void add_arguments(CLI::App& program, Arguments& arguments) {
   ApplicationOptions& options = arguments.options;
   program
-      .add_option(
-          "SCENE", arguments.paths,
-          "scenes: .glb, .gltf, .off, .coff, .ply, .splat, .spz, .npz, .obj, .pt, or a folder; "
-          "several are drawn "
-          "together, each as a layer. One argument after the first scene can be a DATASET: a .json "
-          "file, or a folder that is not a scene, with photographs for comparison (COLMAP or NeRF)")
+      .add_option("SCENE", arguments.paths,
+                  "scenes: files or folders in any format that tureen info reads; several are "
+                  "drawn together, each as a layer. One argument after the first scene can be a "
+                  "DATASET for comparison: a .json file, or a folder that is not a scene, with "
+                  "photographs (COLMAP, NeRF or Bundler)")
       ->option_text(".. [DATASET]");
   program.add_option("--size", arguments.size, "window size in screen coordinates")
       ->option_text("WxH");
@@ -70,14 +69,12 @@ void add_arguments(CLI::App& program, Arguments& arguments) {
       ->option_text("NAME");
   program
       .add_option("--training", options.training,
-                  "log of a run of tureen train to follow: curves, pause, stop and keep; SCENE is "
-                  "its OUT.watch.glb")
+                  "log of a tureen train run to watch and control; SCENE is its OUT.watch.glb")
       ->option_text("OUT.jsonl");
   program
-      .add_option(
-          "--blend", arguments.blend,
-          "what blends splats: raster (the device), tiles (the processor), or auto (default: "
-          "tiles on software OpenGL, but not with --as-published)")
+      .add_option("--blend", arguments.blend,
+                  "blending of splats: raster (on the GPU), tiles (on the CPU), or auto (default: "
+                  "tiles on software OpenGL, but not with --as-published)")
       ->check(CLI::IsMember(
           std::vector<std::string>(splat_blending_names.begin(), splat_blending_names.end())))
       ->option_text("NAME");
@@ -87,11 +84,11 @@ void add_arguments(CLI::App& program, Arguments& arguments) {
       "not need");
   program.add_flag_callback(
       "--no-smooth-at-rest", [&options] { options.smooth_at_rest = false; },
-      "keep one sample per pixel while nothing moves, and in saved images: switches off "
-      "\"smooth at rest\" in the panel Drawing");
+      "draw still views and saved images with one sample per pixel: switches off \"Smooth at "
+      "rest\" in the panel Drawing");
   program.add_flag("--trace", options.trace,
-                   "ray-trace the still view: mirrors, glass, splats in exact order per pixel "
-                   "(\"Trace\" in the panel Drawing); saved images are traced, too");
+                   "ray-trace still views and saved images: mirrors, glass, splats in exact order "
+                   "per pixel (\"Trace\" in the panel Drawing)");
   std::vector<std::string> profiles;
   for (const NamedProfile& each : named_profiles) profiles.emplace_back(each.name);
   program
@@ -99,9 +96,9 @@ void add_arguments(CLI::App& program, Arguments& arguments) {
                   "draw splats by the rules of another method; the scene's own by default")
       ->check(CLI::IsMember(profiles))
       ->option_text("NAME");
-  program.add_flag("--as-published", options.drawing.plan.as_published,
-                   "also cull splats by the rules of their authors' code that depend on the "
-                   "resolution");
+  program.add_flag(
+      "--as-published", options.drawing.plan.as_published,
+      "also apply the culling rules in the authors' code that depend on the resolution");
   program
       .add_option("--images,--pictures", options.images,
                   "folder for saved images; created if it does not exist")
@@ -112,23 +109,21 @@ void add_arguments(CLI::App& program, Arguments& arguments) {
           max_memory_help)
       ->option_text("SIZE");
   program
-      .add_option("--max-splats", options.max_splats,
-                  "read at most N splats of each scene, those with the largest opacity times area")
+      .add_option(
+          "--max-splats", options.max_splats,
+          "read at most N splats from each scene, those with the largest opacity times area")
       ->check(CLI::Range(std::uint64_t(1), std::uint64_t(0xffffffff)))
       ->option_text("N");
   program.add_flag("--no-settings", arguments.no_settings, "do not load or save settings");
   program.add_flag(
       "--report", arguments.report,
-      "at the end, print the time to the first image, the longest time that the main thread needed "
-      "for a frame while a scene was loading, without the drawing of the scene, and how often the "
-      "scene was drawn");
+      "at the end, print the time to the first image, the main thread's longest frame while a "
+      "scene was loading (drawing excluded), and how often the scene was drawn");
   program.add_option("--record", options.record, "session file to write: the events of this run")
       ->option_text("FILE");
   program
-      .add_option(
-          "--replay", arguments.replay,
-          "session file: replay it, then exit; the exit code is 1 if the window shows an error at "
-          "the end of the replay")
+      .add_option("--replay", arguments.replay,
+                  "session file to replay; the window then exits, with code 1 if it shows an error")
       ->option_text("FILE");
 }
 

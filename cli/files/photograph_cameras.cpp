@@ -61,13 +61,13 @@ void refuse(const CameraOptions& options, const CameraQuality& quality) {
 void add_camera_options(Command& command, CameraOptions& options) {
   command
       .add_option("--colmap", options.colmap,
-                  "program that finds the cameras; by default colmap, which is searched on PATH")
+                  "COLMAP program that finds the cameras; by default colmap on PATH")
       .value_name("PROGRAM")
       .group("Options for photographs without cameras");
   command
       .add_flag("--accept", options.accept,
-                "go on with cameras that are refused because too few were found, or too little was "
-                "measured")
+                "continue with cameras that would be rejected: too few were found, or too little "
+                "was measured")
       .group("Options for photographs without cameras");
   command
       .add_flag("--keep-work", options.keep_work,

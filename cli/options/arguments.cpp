@@ -183,7 +183,7 @@ bool Option::is_given() const { return option_->count() > 0; }
 Command Command::add_command(const std::string& name, const std::string& description) {
   app_->require_subcommand(1);
   Command command(app_->add_subcommand(name, description), chosen_);
-  command.add_flag("--quiet", be_quiet, "print only errors, and what --json asks for");
+  command.add_flag("--quiet", be_quiet, "print only errors and the output of --json");
   return command;
 }
 

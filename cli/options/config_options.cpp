@@ -64,17 +64,18 @@ void add_config_options(Command& command, TrainingOptions& options) {
       .value_name("FILE");
   command
       .add_option("--steps", options.steps,
-                  "number of optimiser steps; --list-config has the default of each method; "
-                  "replaces the minutes of --config")
+                  "number of optimiser steps; --list-config prints each method's default; "
+                  "overrides the minutes in --config")
       .value_name("N");
   command.add_option("--seed", options.seed, "seed of the random numbers; 0 by default")
       .value_name("N")
       .check(refuse_seed);
   command
-      .add_option("--init", options.begin,
-                  "first primitives: random, points (structure-from-motion points of the dataset), "
-                  "or a scene to continue from; by default points if the dataset has them, else "
-                  "random (diffsoup, and neural always: Gaussians, which are trained first)")
+      .add_option(
+          "--init", options.begin,
+          "initial primitives: random, points (structure-from-motion points in the dataset), or a "
+          "scene to continue from; by default points if the dataset has them, else random "
+          "(diffsoup, and neural always: Gaussians that are trained first)")
       .value_name("WHERE");
   for (const auto& [option, methods] : all_method_options()) {
     Option added = add_method_option(command, *option, options.own[option->name]);

@@ -48,9 +48,8 @@ Option add_dataset_argument(Command& command, DatasetArgument& argument) {
       {{"background", AlphaMeaning::background},
        {"mask", AlphaMeaning::mask},
        {"ignore", AlphaMeaning::ignore}},
-      "what transparent pixels of photographs are: background (of an object that was cut out), "
-      "mask "
-      "(not used) or ignore (opaque); by default chosen from all photographs (docs/datasets.md)");
+      "meaning of transparent pixels in photographs: background (around an object), mask (not "
+      "used) or ignore (opaque); by default chosen from all photographs (docs/datasets.md)");
   command.add_flag(
       "--strict", argument.options.is_strict,
       "reject a dataset if any photograph cannot be used; by default such photographs are skipped");

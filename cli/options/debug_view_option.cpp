@@ -48,8 +48,7 @@ Option add_debug_view_option(Command& command, DebugViewOption& show) {
       [&show](const std::string& text) { show = parse_debug_view(text); },
       "debug view instead of the final colour: depth, normals, triangle-id, texels, alpha, "
       "mlp-weight, features (features:3 as grey, features:4-6 as red, green, blue), overdraw, "
-      "wireframe, holes, median-depth, opacity, sigma, contributions, order or quarter; drawn with "
-      "one sample per pixel and without specialisations that can change a colour "
+      "wireframe, holes, median-depth, opacity, sigma, contributions, order or quarter "
       "(docs/debug-views.md)");
 }
 

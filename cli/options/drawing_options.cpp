@@ -61,26 +61,25 @@ void add_drawing_options(Command& command, DrawingOptions& options) {
       command, "--shading NAME", options.plan.shading_stage,
       {{"fragment", ShadingStage::fragment}, {"compute", ShadingStage::compute}},
       "shader of the shading pass, for scenes that have one: fragment (default) or compute");
-  add_choice<SplatBlending>(
-      command, "--blend NAME", options.plan.splat_blending,
-      {{"auto", SplatBlending::automatic},
-       {"raster", SplatBlending::raster},
-       {"tiles", SplatBlending::tiles}},
-      "what blends splats: raster (the device), tiles (the processor), or auto (default: tiles on "
-      "software OpenGL, but not with --as-published)");
+  add_choice<SplatBlending>(command, "--blend NAME", options.plan.splat_blending,
+                            {{"auto", SplatBlending::automatic},
+                             {"raster", SplatBlending::raster},
+                             {"tiles", SplatBlending::tiles}},
+                            "blending of splats: raster (on the GPU), tiles (on the CPU), or auto "
+                            "(default: tiles on software OpenGL, but not with --as-published)");
   add_splat_order(
       command, [&options](Quality::SplatOrder order) { options.splat_order = order; },
-      "order of splats at a pixel; the scene's own by default. centre: by their centres. exact: "
-      "along the pixel's ray; by the processor, several times slower. stochastic: by their "
-      "centres, without blending; noisy, but the mean of many samples is right");
+      "order of splats in a pixel; the scene's own by default. centre: by their centres. exact: "
+      "along the pixel's ray, on the CPU, several times slower. stochastic: by their centres, "
+      "without blending; noisy, but right as the mean of many samples");
   add_sampling_options(command, options);
 }
 
 void add_sampling_options(Command& command, DrawingOptions& options) {
-  command.add_option("--supersample N", options.supersampling,
-                     "N x N samples per pixel for smooth edges, 1 to 8; draws N x N times the "
-                     "pixels; the scene's own number by default",
-                     between(1, 8));
+  command.add_option(
+      "--supersample N", options.supersampling,
+      "N x N samples per pixel for smooth edges, 1 to 8; the scene's own number by default",
+      between(1, 8));
   command.add_flag("--opaque", options.opaque,
                    "draw triangle windows as opaque triangles instead of blending them");
 }
@@ -88,8 +87,8 @@ void add_sampling_options(Command& command, DrawingOptions& options) {
 void add_drawing_scale(Command& command, DrawingOptions& options) {
   command
       .add_option("--scale S", options.resolution_scale,
-                  "fraction of the rows and columns to draw before enlarging, 0.25 to 1; below 1 "
-                  "is faster but blurred",
+                  "resolution scale: fraction of rows and columns drawn before enlarging, 0.25 to "
+                  "1; below 1 is faster but blurred",
                   between(0.25, 1.0))
       .excludes(command.option("--supersample"));
 }

@@ -38,7 +38,7 @@ void add_quality_options(Command& command, QualityOptions& quality) {
           [&quality](const std::string& text) {
             quality.sampling = Quality{.resolution_scale = *number_from(text)};
           },
-          "quality setting stored in OUT: fraction of the rows and columns to draw, 0.25 to 1",
+          "quality setting stored in OUT: fraction of rows and columns to draw, 0.25 to 1",
           between(0.25, 1.0))
       .excludes(samples);
   add_splat_order(

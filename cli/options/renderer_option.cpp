@@ -66,7 +66,7 @@ RendererChoice ray_renderer() { return {&rays}; }
 
 void add_samples_option(Command& command, RendererChoice& choice) {
   command.add_option("--samples N", choice.samples,
-                     "samples per pixel, jittered; default 1; needs --renderer trace",
+                     "jittered samples per pixel, 1 by default; needs --renderer trace",
                      between(1, 4096));
 }
 
@@ -75,9 +75,9 @@ std::function<void()> add_renderer_option(Command& command, RendererChoice& choi
   std::vector<std::pair<std::string, const ProcessorRenderer*>> choices{{"gl", nullptr}};
   for (const ProcessorRenderer& each : renderers) choices.emplace_back(each.name, &each);
   add_choice(command, "--renderer NAME", choice.renderer, std::move(choices),
-             "what draws: gl (default); oracle: the reference in double precision, seconds to "
-             "hours per image; tiles: splats on the CPU; trace: rays, with mirrors, glass and "
-             "splats in exact order. Only gl needs OpenGL");
+             "renderer: gl (default; needs OpenGL); oracle: the reference in double precision, "
+             "seconds to hours per image; tiles: splats on the CPU; trace: rays, with mirrors, "
+             "glass and splats in exact order");
   add_samples_option(command, choice);
   std::vector<std::pair<std::string, Option>> options;
   for (const char* name : gl_options)

@@ -64,22 +64,22 @@ void add_reading_options(Command& command, ReadingChoice& choice) {
                                {{"auto", VertexColorSpace::automatic},
                                 {"srgb", VertexColorSpace::srgb},
                                 {"linear", VertexColorSpace::linear}},
-                               "colour space of COLOR_0 in a foreign glTF: auto (default, depends "
-                               "on its generator), srgb or linear");
+                               "colour space of COLOR_0 in a foreign glTF: auto (default: by its "
+                               "generator), srgb or linear");
   command.add_option("--up AXIS", choice.up,
                      "up direction in world coordinates: x, -y, z .. or X,Y,Z; the scene's own by "
                      "default");
   command.add_option(
       "--octagon-q Q", choice.octagon_q,
-      "--quant of REdiSplats' generate_mesh.py, which wrote an .npz: the corners are at sqrt(Q) "
-      "standard deviations; 4 by default, others are 6.2514, 7.8147, 11.3449 and 21.1075",
+      "value of --quant with which REdiSplats' generate_mesh.py wrote an .npz: its corners are at "
+      "sqrt(Q) standard deviations; 4 by default, others are 6.2514, 7.8147, 11.3449 and 21.1075",
       between(0.001, 1000.0));
   command.add_option(
       "--max-splats N", choice.max_splats,
-      "read at most N splats of each scene, those with the largest opacity times area",
+      "read at most N splats from each scene, those with the largest opacity times area",
       between(1.0, 4294967295.0));
   command.add_option("--lod N", choice.lod,
-                     "level of detail of a streamed SOG, 0 is the finest; by default the finest "
+                     "level of detail of a streamed SOG, 0 for the finest; by default the finest "
                      "that fits --max-splats and --max-memory",
                      between(0.0, 63.0));
   std::vector<std::string> names;
@@ -90,18 +90,18 @@ void add_reading_options(Command& command, ReadingChoice& choice) {
       fmt::format("draw splats by the rules of another method: {}; the scene's own by default",
                   fmt::join(names, ", ")));
   command.add_option("--near-limit UNITS", choice.near_limit,
-                     "do not draw splats with a centre up to this depth before the camera; the "
-                     "scene's own by default, 0.2 by the published rules",
+                     "do not draw splats whose centres have at most this view depth; the scene's "
+                     "own by default, 0.2 in the published rules",
                      between(0.0, 1e30));
 }
 
 void add_placing_options(Command& command, ReadingChoice& choice) {
   command
       .add_option("--place NAME=PARTS", choice.places,
-                  "place, hide or show a layer; once for each layer. PARTS are separated by "
-                  "slashes: at:X,Y,Z, turn:X,Y,Z (degrees about x, then y, then z; instead of a "
-                  "turn to the common up axis), scale:FACTOR, mirror or mirror:no, hidden or "
-                  "visible. Missing parts stay as they are; info prints names and places",
+                  "place, hide or show a layer; once per layer. PARTS are separated by slashes: "
+                  "at:X,Y,Z, turn:X,Y,Z (degrees about x, then y, then z; replaces the turn to the "
+                  "common up axis), scale:FACTOR, mirror or mirror:no, hidden or visible. Omitted "
+                  "parts do not change; info prints names and places",
                   [](const std::string& text) {
                     parse_place(text);
                     return std::string();
@@ -109,7 +109,7 @@ void add_placing_options(Command& command, ReadingChoice& choice) {
       .repeatable();
   command.add_flag(
       "--keep-axes", [&choice] { choice.up_axes = UpAxes::keep; },
-      "do not turn further scenes whose up axis differs from that of the first scene");
+      "do not turn scenes whose up axis differs from the first scene's");
 }
 
 void add_scene_argument(Command& command, SceneArgument& argument) {

@@ -122,14 +122,14 @@ namespace {
 void add_animation_options(Command& command, ViewOptions& options) {
   Option path = command.add_option(
       "--path FILE.json|cameras[:SECONDS]", options.path,
-      "draw the frames along a camera path: a JSON file with \"cameras\" and their \"seconds\" "
+      "draw frames along a camera path: a JSON file with \"cameras\" and their \"seconds\" "
       "(docs/camera-paths.md), or a smooth flight along the scene's recorded cameras");
   for (const char* other : {"--camera", "--eye", "--fov", "--orbit"})
     path.excludes(command.option(other));
   Option turntable =
       command.add_option("--turntable SECONDS", options.turntable,
-                         "draw the frames of one turn of this duration around the up axis; the "
-                         "camera moves as for --orbit, or starts at --eye and circles --target",
+                         "draw the frames of one turn around the up axis; the camera moves as for "
+                         "--orbit, or starts at --eye and circles --target",
                          between(0.001, 36000.0));
   for (const Option& other : {command.option("--camera"), command.option("--orbit"), path})
     turntable.excludes(other);
@@ -159,7 +159,7 @@ void add_view_options(Command& command, ViewOptions& options) {
   const Option eye =
       command
           .add_option("--eye X,Y,Z", options.eye,
-                      "eye position in world coordinates; the view direction is towards --target")
+                      "eye position in world coordinates; the camera looks at --target")
           .excludes(camera);
   command
       .add_option(
@@ -169,18 +169,16 @@ void add_view_options(Command& command, ViewOptions& options) {
       .needs(eye);
   command
       .add_option("--fov DEGREES", options.fov_degrees,
-                  "full vertical field of view in degrees; that of the recorded cameras for views "
-                  "around the point that they look at, otherwise 40",
+                  "full vertical field of view in degrees; by default 40, or that of the recorded "
+                  "cameras for views around the point that they look at",
                   between(0.1, 179.0))
       .excludes(camera);
   command
-      .add_option(
-          "--orbit N", options.orbit,
-          "draw N views around the up axis: around the point that the recorded cameras look at, at "
-          "their distance and height; or, without cameras and for an object that they stand "
-          "around, "
-          "slightly from above, each of the whole scene",
-          between(1, max_orbit_views))
+      .add_option("--orbit N", options.orbit,
+                  "draw N views in a circle around the up axis: around the point that the recorded "
+                  "cameras look at, at their distance and height. Without cameras, or if they "
+                  "surround an object, each view shows the whole scene, slightly from above",
+                  between(1, max_orbit_views))
       .excludes(camera)
       .excludes(eye);
   add_animation_options(command, options);

@@ -38,10 +38,9 @@ const MethodOption preset_option{
         "this method chooses its constants by the alpha of the photographs; --config changes them",
     .value_name = "NAME",
     .words = {"object", "scene"}};
-const MethodOption compat_option{
-    .name = "compat",
-    .help = "use the constants of published DiffSoup where Tureen's differ",
-    .instead = "--config sets the constants of this method"};
+const MethodOption compat_option{.name = "compat",
+                                 .help = "use published DiffSoup's constants where Tureen's differ",
+                                 .instead = "--config sets the constants of this method"};
 const MethodOption triangles_option{.name = "triangles",
                                     .type = Type::whole,
                                     .help = "number of triangles at the end; 15,000 by default",
@@ -66,7 +65,7 @@ const MethodOption device_option{
     .name = "device",
     .type = Type::word,
     .help = "device for training: auto (default: a GPU if available), cpu or cuda",
-    .instead = "this method trains on the processor, with --device cpu or auto",
+    .instead = "this method trains on the CPU, with --device cpu or auto",
     .value_name = "NAME",
     .words = {"auto", "cpu", "cuda"},
     .everywhere = {"auto", "cpu"}};

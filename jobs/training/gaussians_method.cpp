@@ -32,7 +32,7 @@ class GaussiansMethod final : public SplatMethod<GaussianConfig, trainer::Gaussi
 }  // namespace
 
 const TrainingMethodInfo gaussians_method = splat_method_info<GaussiansMethod, GaussianConfig>(
-    "gaussians", "3D Gaussian Splatting, on the processor", {&flat_option},
-    trainer::gaussians_magic, 1, 2000, {{"3dgs", nullptr}, {"2dgs", &flat_option}});
+    "gaussians", "3D Gaussian Splatting, on the CPU", {&flat_option}, trainer::gaussians_magic, 1,
+    2000, {{"3dgs", nullptr}, {"2dgs", &flat_option}});
 
 }  // namespace tureen

@@ -45,6 +45,6 @@ class NeuralMethod final : public SplatMethod<NeuralConfig, trainer::NeuralParam
 }  // namespace
 
 const TrainingMethodInfo neural_method = splat_method_info<NeuralMethod, NeuralConfig>(
-    "neural", "splattable neural primitives, on the processor", {}, trainer::neural_magic, 3, 2000);
+    "neural", "splattable neural primitives, on the CPU", {}, trainer::neural_magic, 3, 2000);
 
 }  // namespace tureen

@@ -25,7 +25,7 @@ class TrianglesMethod final : public SplatMethod<WindowConfig, trainer::WindowPa
 }  // namespace
 
 const TrainingMethodInfo triangles_method = splat_method_info<TrianglesMethod, WindowConfig>(
-    "triangles", "Triangle Splatting, on the processor", {&opaque_option}, trainer::triangles_magic,
-    1.5, 2000);
+    "triangles", "Triangle Splatting, on the CPU", {&opaque_option}, trainer::triangles_magic, 1.5,
+    2000);
 
 }  // namespace tureen

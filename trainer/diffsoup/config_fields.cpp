@@ -41,20 +41,21 @@ const ConfigField fields[] = {
     {"seed", &Config::seed, any_seed, "Random seed; equal seeds give equal soups"},
     {"triangles", &Config::triangles, faces, "Exact number of triangles at the end"},
     {"initialisation", &Config::initialisation, none,
-     "Source of the first triangles: points of the dataset, random points, or a scene; automatic "
+     "Source of the initial triangles: points of the dataset, random points, or a scene; automatic "
      "uses points if the dataset has any, else Gaussians",
      initialisation_words},
     {"gaussian_steps",
      &Config::gaussian_steps,
      {0, 1e6, {}, "it is a part of the run"},
-     "Without points: steps of the Gaussians that give the first triangles places and normals; 0: "
+     "Without points: steps of the Gaussians that give the initial triangles places and normals; "
+     "0: "
      "random points instead"},
     {"initial_triangles", &Config::initial_triangles, faces,
      "Number of triangles at the first step"},
     {"initial_radius",
      &Config::initial_radius,
      {0, 100, Range::Ends::low_open, "a triangle needs a size"},
-     "Circumradius of the first triangles, in mean distances to the nearest neighbour"},
+     "Circumradius of the initial triangles, in mean distances to the nearest neighbour"},
     {"local_radius", &Config::local_radius, none,
      "With points: each triangle uses the distance to its own neighbour instead of the mean"},
     {"box",

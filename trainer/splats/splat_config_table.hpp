@@ -30,7 +30,7 @@ std::vector<typename C::Field> with_common_fields(std::vector<typename C::Field>
       {"first_splats", &C::first_splats, splats,
        "Number of random splats, or of samples on a mesh, at the start; if the dataset has fewer "
        "points, random splats are added"},
-      {"first_opacity", &C::first_opacity, opacity, "Opacity of the first splats"},
+      {"first_opacity", &C::first_opacity, opacity, "Opacity of the initial splats"},
       {"far_splats", &C::far_splats, fraction,
        "Fraction of the random splats outside of the region of interest; by default 0 if the "
        "images have alpha, else 0.5"},
@@ -55,7 +55,7 @@ std::vector<typename C::Field> with_common_fields(std::vector<typename C::Field>
       {"ssim_weight", &C::ssim_weight, weight, "Weight of (1 - SSIM) / 2"},
       {"seed", &C::seed, any_seed, "Random seed; equal seeds give equal splats"},
       {"initialisation", &C::initialisation, none,
-       "Source of the first splats: points of the dataset, random points, or a scene; automatic "
+       "Source of the initial splats: points of the dataset, random points, or a scene; automatic "
        "uses points if the dataset has any",
        initialisation_words},
       {"minutes", &C::minutes, minutes,

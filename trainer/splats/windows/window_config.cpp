@@ -12,9 +12,9 @@ std::span<const WindowConfig::Field> splat_config_fields<WindowConfig>() {
   static constexpr Range sigma{0.0101, 20, {}, "other values are outside of the trained range"};
   static const std::vector<WindowConfig::Field> fields = with_common_fields<WindowConfig>({
       {"first_size", &WindowConfig::first_size, length,
-       "Circumradius of the first triangles: relative to the mean spacing, or at points to twice "
+       "Circumradius of the initial triangles: relative to the mean spacing, or at points to twice "
        "the distance to the nearest other point"},
-      {"first_sigma", &WindowConfig::first_sigma, sigma, "Sigma of the first triangles"},
+      {"first_sigma", &WindowConfig::first_sigma, sigma, "Sigma of the initial triangles"},
       {"sampling", &WindowConfig::sampling, none,
        "Weight in the choice of triangles to divide; alternating is opacity and 1 / sigma in turn, "
        "as Triangle Splatting",
