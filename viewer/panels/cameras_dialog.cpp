@@ -22,8 +22,8 @@ void cameras_dialog(State& state) {
   if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
   const bool entered =
       ImGui::InputText("##dataset", &search->dataset, ImGuiInputTextFlags_EnterReturnsTrue);
-  tip("The folder for the cameras, and for links to the photographs. An interrupted search of the "
-      "same folder continues");
+  tip("Folder for the cameras and links to the photographs. An interrupted search in the same "
+      "folder continues");
   const std::string defect = dataset_defect(search->dataset);
   if (!defect.empty()) aside(defect);
   const bool pressed = [&] {

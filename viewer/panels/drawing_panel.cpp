@@ -79,7 +79,7 @@ bool splat_rules(State& state, DrawingChoice& choice) {
     }
     ImGui::EndCombo();
   }
-  tip("The method by whose rules splats are drawn.");
+  tip("Method whose rules draw the splats");
   Quality quality = document.quality;
   int order = int(quality.splat_order);
   field("Splat order");
@@ -88,10 +88,10 @@ bool splat_rules(State& state, DrawingChoice& choice) {
     quality.splat_order = Quality::SplatOrder(order);
     state.edit(ChangeQuality{quality});
   }
-  tip("The splat in front: the one with the nearer centre; exactly the nearer one at each pixel, "
-      "slower; or drawn by chance without blending, noisy");
+  tip("Centre: by the splats' centres. Exact: along the ray of each pixel, slower. Stochastic: "
+      "without blending, noisy");
   const bool changed = check("As published", &choice.plan.as_published);
-  tip("Also cull splats by the rules of their authors' code that depend on the resolution");
+  tip("Also apply the culling rules in the authors' code that depend on the resolution");
   return changed;
 }
 
@@ -136,8 +136,8 @@ void drawing_panel(State& state) {
   background_rows(state);
   sampling(state);
   check("Smooth at rest", &state.settings.smooth_at_rest);
-  tip("While nothing moves, draw 64 frames with other samples and show their mean. Saved images "
-      "have these samples, too");
+  tip("Still views show the mean of 64 frames with different samples. Saved images have the same "
+      "samples");
   tracing_rows(state);
   bool changed = splat_rules(state, choice);
   bool baseline = choice.pipeline == PipelineKind::baseline;
@@ -145,7 +145,7 @@ void drawing_panel(State& state) {
     choice.pipeline = baseline ? PipelineKind::baseline : PipelineKind::tureen;
     changed = true;
   }
-  tip("Soups by a reimplementation of the published DiffSoup viewer, splats as plain quads");
+  tip("Draws soups as in DiffSoup's viewer, and splats as instanced quads");
   if (stage.debug_views)  // the plan is not that of the choice
     aside("Debug views are drawn without these choices.");
   else

@@ -43,7 +43,7 @@ fs::path folder_buttons(State& state) {
   if (state.stage) {
     ImGui::SameLine();
     check("Add to the scene", &state.adds_files);
-    tip("Scenes become layers of the one that is shown, as if they were dropped on the window");
+    tip("Adds scenes as layers, as if they were dropped on the window");
   }
   return next;
 }

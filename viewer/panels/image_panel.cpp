@@ -44,7 +44,7 @@ void size_rows(ImageWish& wish) {
     }
     ImGui::EndCombo();
   }
-  tip("Larger images than the device's limit are drawn in tiles");
+  tip("Images beyond the device's limit are drawn in tiles");
   if (current != other) return;
   field("Pixels");
   ImGui::InputInt2("##pixels", &wish.size.x);
@@ -75,7 +75,7 @@ void image_panel(State& state) {
   tip("Ctrl+C: the tureen render command that draws this image without a window");
   beside("Save as a web page");
   if (button("Save as a web page")) state.ask(SavePage{});
-  tip("One file with the scene and its viewer, which opens by double-click");
+  tip("One file with the scene and its viewer; opens with a double click");
 }
 
 }  // namespace tureen::viewer

@@ -76,8 +76,7 @@ bool place_rows(Similarity& numbers, double radius) {
                              length_format(radius).c_str());
   tip("Position in world units (x, y, z). Drag, or double-click to type");
   changed |= numbers_row("Rotation", std::span(&numbers.angles.x, 3), 0.5, "%.5g");
-  tip("In degrees, about the world's axes through the layer's origin: first about x, then y, then "
-      "z; "
+  tip("Degrees about the world's axes through the layer's origin: x, then y, then z; "
       "counter-clockwise, seen from the positive end of the axis");
   field("Scale");
   ImGui::SetNextItemWidth(5.5f * ImGui::GetFontSize());
@@ -86,7 +85,7 @@ bool place_rows(Similarity& numbers, double radius) {
                         &min_scale, &max_scale, "%.6g", ImGuiSliderFlags_AlwaysClamp);
   ImGui::SameLine();
   changed |= check_beside_field("Mirror", &numbers.mirror);
-  tip("Negates x of the layer, before the rotation");
+  tip("Negates the layer's x, before the rotation");
   return changed;
 }
 
@@ -136,7 +135,7 @@ void surface_row(State& state, const DocumentLayer& layer) {
   if (ImGui::DragFloat("##ior", &material.ior, 0.005f, 1.0f, max_ior, "%.3f",
                        ImGuiSliderFlags_AlwaysClamp))
     state.edit(SetMaterial{layer.id, material}, true);
-  tip("Index of refraction: 1 changes no direction, water has 1.333, glass 1.5");
+  tip("Index of refraction: 1 for air, 1.333 for water, 1.5 for glass");
 }
 
 void gizmo_rows(GizmoState& gizmo) {
@@ -167,7 +166,7 @@ void place_buttons(State& state, const DocumentLayer& layer) {
   const Layer* const read = state.source.as_read(layer);
   const Disabled disabled(!read || read->world_from_layer == layer.world_from_layer);
   if (button("Reset", share_of_row(1))) state.edit(PlaceLayer{layer.id, read->world_from_layer});
-  tip("The position, rotation, scale and mirror that the file gives");
+  tip("Restores the position, rotation, scale and mirror in the file");
 }
 
 void order_buttons(State& state, std::size_t index) {

@@ -59,10 +59,10 @@ void box_facts(const Document& document) {
     return fmt::format("{:.4g}, {:.4g}, {:.4g}", v.x, v.y, v.z);
   };
   fact("Extent", fmt::format("{:.4g} \u00d7 {:.4g} \u00d7 {:.4g}", extent.x, extent.y, extent.z));
-  tip("Of the box around all layers along x, y and z, in world units. Splats far from all others "
-      "do not count");
+  tip("Size of the box around all layers along x, y and z, in world units. Splats far from all "
+      "others do not count");
   fact("Box", fmt::format("{}\nto {}", list(box.low), list(box.high)));
-  tip("Its lowest and its highest corner: x, y, z");
+  tip("Lowest and highest corner: x, y, z");
 }
 
 /// Powers of 1000, as on the page: "9.4 MB", "151 MB".
@@ -78,7 +78,7 @@ void steps_menu(State& state) {
     const Disabled disabled(history.steps().empty());
     if (button("Steps")) ImGui::OpenPopup("steps");
   }
-  tip("The list of changes: a click goes back to one, or forth");
+  tip("List of changes; click one to return to it");
   if (!ImGui::BeginPopup("steps")) return;
   if (escape_pressed()) ImGui::CloseCurrentPopup();
   const std::size_t position = history.position();
@@ -150,7 +150,7 @@ void scene_panel(State& state) {
   ImGui::PopStyleVar();
   notes_rows(state.source.scene->info);
   if (button("Open")) state.show_files = true;
-  tip("O: replaces the scene, or adds layers to it, as scenes do that are dropped on the window");
+  tip("O: replaces the scene, or adds layers to it");
   ImGui::SameLine();
   recent_menu(state);
   ImGui::SameLine();

@@ -6,8 +6,7 @@ namespace tureen::viewer {
 
 void tracing_rows(State& state) {
   check("Trace", &state.trace);
-  tip("Ray-trace the still view: mirrors, glass, splats in exact order per pixel. Saved images are "
-      "traced, too.");
+  tip("Ray-trace still views and saved images: mirrors, glass, splats in exact order per pixel");
   if (!state.trace) return;
   const TracedView& traced = state.traced;
   if (state.stage->debug_views) {

@@ -98,7 +98,7 @@ void training_curves(const std::vector<TrainingRecord>& records) {
   fact("PSNR in dB", last_value(held_out, 2));
   const TrainingCurve psnr[] = {seen, held_out};
   draw_curves(2, psnr);
-  tip("blue: of at most five held-out views; grey: of the step's views");
+  tip("blue: at most five held-out views; grey: the step's views");
 }
 
 std::string progress_words(const TrainingRecord& last, const std::optional<RunCommand>& command) {
@@ -130,7 +130,7 @@ void training_buttons(State& state) {
     state.ask(TellTraining{paused ? RunCommand::run : RunCommand::pause});
   ImGui::SameLine();
   if (button("Stop and keep")) ImGui::OpenPopup("stop");
-  tip("Ends the run as if all steps were done: writes and measures the scene");
+  tip("Finishes the run early: writes and measures the scene");
   if (!ImGui::BeginPopup("stop")) return;
   text("A stopped run cannot be continued.");
   if (button("Stop now")) {

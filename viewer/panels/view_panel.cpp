@@ -88,7 +88,7 @@ void view_panel(State& state) {
   ImGui::SameLine();
   if (button("Keep as first view", share_of_row(1)))
     state.edit(ChangeFirstView{controls.camera(state.pixels.x, state.pixels.y)});
-  tip("The scene begins with this view, here and in the file that is saved");
+  tip("Shows this view first, here and in the saved file");
   up_menu(state);
   auto fov = static_cast<float>(controls.fov() * degrees_per_radian);
   field("Angle");
