@@ -33,7 +33,7 @@ void set_time(double& minutes, const TrainingOptions& options) {
   const auto& given = options[minutes_option].number;
   if (options.steps && given)
     throw UsageError("--steps and --minutes exclude each other",
-                     "--minutes fits the number of steps to the time");
+                     "use one: --minutes chooses the number of steps");
   // In a file, 0 means a fixed number of steps; on the command line, --steps does.
   if (given && !(*given > 0))
     throw UsageError("--minutes: " + trainer::double_text(*given) +
