@@ -311,7 +311,7 @@ ExitCode train(TrainOptions options) {
   events.preparing = [&](double fraction) {
     before_the_first_step(options, [&] {
       try {
-        show("training the first Gaussians", fraction);
+        show("preparing the first step", fraction);
       } catch (const Interrupted&) {
         progress.reset();
         throw;

@@ -7,6 +7,10 @@ if(EMSCRIPTEN)
 else()
   find_package(hwy REQUIRED)
   target_link_libraries(tureen_vectors INTERFACE hwy::hwy)
-  target_compile_definitions(tureen_vectors INTERFACE
-    "HWY_DISABLED_TARGETS=(HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128|HWY_RVV)")
+  set(disabled "HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128|HWY_RVV")
+  # With sanitizers, each kind of vectors takes minutes to compile: two kinds suffice for their tails.
+  if(TUREEN_SANITIZE)
+    string(APPEND disabled "|(HWY_AVX2-1)|HWY_SSE4|HWY_SSSE3")  # lower bits are wider vectors
+  endif()
+  target_compile_definitions(tureen_vectors INTERFACE "HWY_DISABLED_TARGETS=(${disabled})")
 endif()

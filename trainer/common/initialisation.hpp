@@ -4,7 +4,7 @@
 namespace tureen::trainer {
 
 enum class Initialisation {
-  automatic,  // points if the dataset has any, else random; soups: else on Gaussians
+  automatic,  // points of the dataset, else of stereo_points(); soups: else on Gaussians
   points,     // at points of the dataset, from structure from motion
   random,     // at random points of a box
   mesh,       // the primitives of a scene in a supported format

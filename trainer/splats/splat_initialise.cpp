@@ -12,6 +12,7 @@
 #include "trainer/splats/neural/neural_start.hpp"
 #include "trainer/splats/neural/neural_training.hpp"
 #include "trainer/splats/splat_start.hpp"
+#include "trainer/splats/stereo_points.hpp"
 #include "trainer/splats/windows/window_training.hpp"
 
 namespace tureen::trainer {
@@ -35,15 +36,15 @@ void put_all(typename Training::Parameters& parameters, const std::vector<Colore
 }
 
 template <class Training>
-typename Training::Parameters at_points(const Dataset& dataset,
+typename Training::Parameters at_points(std::span<const DatasetPoint> dataset_points,
                                         const typename Training::Config& config,
                                         const Region& region, Random& random) {
   std::vector<std::uint32_t> chosen =
-      draw(random, std::size_t(config.max_splats), dataset.points.size());
+      draw(random, std::size_t(config.max_splats), dataset_points.size());
   std::sort(chosen.begin(), chosen.end());
   std::vector<ColoredPoint> points;
   for (const std::uint32_t i : chosen) {
-    const DatasetPoint& point = dataset.points[i];
+    const DatasetPoint& point = dataset_points[i];
     points.push_back({point.position - region.center, glm::vec3(point.color) / 255.0f});
   }
   typename Training::Config filled = config;
@@ -168,25 +169,38 @@ template <class Training>
 typename Training::Parameters initial_splats(const Dataset& dataset,
                                              const typename Training::Config& config,
                                              const Region& region, const Scene* start,
-                                             Random& random) {
+                                             Random& random, const Search& search) {
   assert(start || config.initialisation != Initialisation::mesh);
   if (start) return from_scene<Training>(*start, config, region, random);
   if (config.initialisation == Initialisation::points && dataset.points.empty())
     throw InputError({}, "the dataset has no points for the first splats",
                      "use random initialisation");
-  if (!dataset.points.empty() && config.initialisation != Initialisation::random)
-    return at_points<Training>(dataset, config, region, random);
+  if (config.initialisation != Initialisation::random && !dataset.points.empty())
+    return at_points<Training>(dataset.points, config, region, random);
+  // Objects with alpha gain nothing: on held-out training views, lego has 35.2 dB from random
+  // splats and 35.0 dB from points, the fox 28.1 and 31.2 dB.
+  if (config.initialisation == Initialisation::automatic && !dataset.has_alpha) {
+    const auto found =
+        stereo_points(dataset.train, region, std::span<const float, 3>(config.background),
+                      std::size_t(std::min(config.first_splats, config.max_splats)), config.seed,
+                      search.threads, search.progress);
+    if (!found.empty()) return at_points<Training>(found, config, region, random);
+  }
   return random_splats<Training>(config, {.center = glm::dvec3(0), .half_side = region.half_side},
                                  random);
 }
 
 template GaussianParameters initial_splats<GaussianTraining>(const Dataset&, const GaussianConfig&,
-                                                             const Region&, const Scene*, Random&);
+                                                             const Region&, const Scene*, Random&,
+                                                             const Search&);
 template GaussianParameters initial_splats<DiscTraining>(const Dataset&, const GaussianConfig&,
-                                                         const Region&, const Scene*, Random&);
+                                                         const Region&, const Scene*, Random&,
+                                                         const Search&);
 template NeuralParameters initial_splats<NeuralTraining>(const Dataset&, const NeuralConfig&,
-                                                         const Region&, const Scene*, Random&);
+                                                         const Region&, const Scene*, Random&,
+                                                         const Search&);
 template WindowParameters initial_splats<WindowTraining>(const Dataset&, const WindowConfig&,
-                                                         const Region&, const Scene*, Random&);
+                                                         const Region&, const Scene*, Random&,
+                                                         const Search&);
 
 }  // namespace tureen::trainer

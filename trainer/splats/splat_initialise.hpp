@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <vector>
 
@@ -16,6 +17,12 @@
 #include "trainer/splats/splat_state.hpp"
 
 namespace tureen::trainer {
+
+/// How first splats are found in photographs.
+struct Search {
+  int threads = 0;                                     // 0: one per core
+  std::function<void(double fraction)> progress = {};  // may be empty, and may throw
+};
 
 struct ColoredPoint {
   glm::dvec3 position;    // relative to the region's centre
@@ -48,7 +55,8 @@ typename Training::Parameters random_splats(const typename Training::Config& con
 /// Training::size_at_point gives, and with config.first_opacity.
 ///
 /// Points: at most config.max_splats of them, with their colours. Further random ones in the region
-/// make up config.first_splats.
+/// make up config.first_splats. With Initialisation::automatic, a dataset without points and
+/// without alpha gets stereo_points() from the images of dataset.train.
 ///
 /// `start`: the scene of Initialisation::mesh, or one that replaces the others, or null; it has one
 /// layer. Splats of the method's kernel are taken as they are, in world coordinates; Gaussians
@@ -61,16 +69,17 @@ template <class Training>
 typename Training::Parameters initial_splats(const Dataset& dataset,
                                              const typename Training::Config& config,
                                              const Region& region, const Scene* start,
-                                             Random& random);
+                                             Random& random, const Search& search = {});
 
 /// The state before the first step, with initial_splats().
 template <class Training>
 SplatState<typename Training::Parameters> first_splats(const Dataset& dataset,
                                                        const typename Training::Config& config,
                                                        const Region& region,
-                                                       const Scene* start = nullptr) {
+                                                       const Scene* start = nullptr,
+                                                       const Search& search = {}) {
   SplatState<typename Training::Parameters> state{.random = Random(config.seed)};
-  state.parameters = initial_splats<Training>(dataset, config, region, start, state.random);
+  state.parameters = initial_splats<Training>(dataset, config, region, start, state.random, search);
   state.memory = SplatMemory(state.parameters.rows(), state.parameters.count());
   return state;
 }

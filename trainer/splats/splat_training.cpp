@@ -103,9 +103,14 @@ SplatResult train_by(Dataset& dataset, Request request) {
     const Stopwatch watch(run.seconds);
     first = request.first_scene(region);
   }
-  run.state = request.checkpoint ? std::move(request.checkpoint->state)
-                                 : first_splats<Training>(dataset, run.config, region,
-                                                          first ? &*first : request.start);
+  if (request.checkpoint) {
+    run.state = std::move(request.checkpoint->state);
+  } else {
+    const Stopwatch watch(run.seconds);
+    run.state =
+        first_splats<Training>(dataset, run.config, region, first ? &*first : request.start,
+                               {.threads = request.run.threads, .progress = request.run.preparing});
+  }
   const std::size_t splats = run.state.parameters.count();
   std::vector<TrainingView> views =
       take_training_views(dataset.train, std::span<const float, 3>(run.config.background));
