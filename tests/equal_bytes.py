@@ -39,6 +39,7 @@ class Runs:
 
     def step_seconds(self, scene, *more, few=300):
         """Processor seconds of a step, and those of a run without steps."""
+        self.train(scene, few, *more)  # the driver keeps the shaders that it compiles here
         (first, _), (second, _) = (self.train(scene, n * few, *more) for n in (1, 2))
         return (second - first) / few, 2 * first - second
 
