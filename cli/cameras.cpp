@@ -27,10 +27,8 @@ ExitCode run(const CamerasCommand& command) {
     if (!command.dataset.empty())
       throw UsageError(command.photographs + " has cameras; its points are written beside them",
                        "omit -o");
-    const PointOutcome outcome = search_points({.dataset = job.photographs,
-                                                .colmap = job.colmap,
-                                                .threads = job.threads,
-                                                .keep_work = job.keep_work});
+    job.dataset = job.photographs;
+    const PointOutcome outcome = search_points(job);
     result = {{"photographs", outcome.photographs},
               {"points", outcome.points},
               {"reprojection_error_px", outcome.error_px},
