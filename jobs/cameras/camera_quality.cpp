@@ -8,7 +8,6 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/matrix.hpp>
 #include <map>
-#include <numeric>
 #include <set>
 #include <utility>
 

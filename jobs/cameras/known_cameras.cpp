@@ -9,7 +9,6 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <set>
-#include <span>
 
 #include "base/error.hpp"
 #include "base/existing_path.hpp"

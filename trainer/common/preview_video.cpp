@@ -1,7 +1,6 @@
 #include "trainer/common/preview_video.hpp"
 
 #include <algorithm>
-#include <string>
 #include <vector>
 
 #include "base/input.hpp"
