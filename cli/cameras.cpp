@@ -74,14 +74,11 @@ do not determine the cameras, 5 interrupted, COLMAP failed, or the dataset canno
       .add_option("PHOTOS", options->photographs,
                   "folder of photographs, a video, or a dataset without points")
       .required();
-  command.add_option("-o,--output", options->dataset, "folder to write; by default PHOTOS.dataset")
-      .value_name("DATASET");
+  command.add_option("-o,--output DATASET", options->dataset,
+                     "folder to write; by default PHOTOS.dataset");
   add_camera_options(command, options->job);
-  command
-      .add_option("--threads", options->job.threads,
-                  "number of processor threads; one per core by default")
-      .check(between(1, 1024))
-      .value_name("N");
+  command.add_option("--threads N", options->job.threads,
+                     "number of processor threads; one per core by default", between(1, 1024));
   command.add_flag("--json", options->json,
                    "print the result as one line of JSON to standard output");
   command.does([options] { return run(*options); });

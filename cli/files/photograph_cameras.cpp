@@ -61,9 +61,8 @@ void refuse(const CameraOptions& options, const CameraQuality& quality) {
 void add_camera_options(Command& command, CameraOptions& options) {
   const char* group = "Options for photographs without cameras";
   command
-      .add_option("--colmap", options.colmap,
+      .add_option("--colmap PROGRAM", options.colmap,
                   "program that finds the cameras; by default colmap, which is searched on PATH")
-      .value_name("PROGRAM")
       .group(group);
   command
       .add_flag("--accept", options.accept,
