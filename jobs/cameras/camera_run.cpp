@@ -80,9 +80,10 @@ class CameraRun {
       return outcome;
     }
     link();
-    std::vector<fs::path> best = reconstruct(outcome.quality);
-    if (best.empty() || !(outcome.quality.refusals.empty() || options_.accept)) return outcome;
-    write_dataset(best.front());
+    reconstruct(outcome.quality);
+    if (outcome.quality.best.empty() || !(outcome.quality.refusals.empty() || options_.accept))
+      return outcome;
+    write_dataset(outcome.quality.best);
     outcome.is_written = true;
     if (!options_.keep_work) work_.remove();
     return outcome;
@@ -125,9 +126,8 @@ class CameraRun {
     }
   }
 
-  /// Returns the models of the best attempt, the largest first; none if every one failed.
-  std::vector<fs::path> reconstruct(CameraQuality& quality) {
-    std::vector<fs::path> best;
+  /// Sets the quality of the best attempt.
+  void reconstruct(CameraQuality& quality) {
     for (std::size_t i = 0; i < attempts.size(); ++i) {
       if (!is_worth_trying(i, quality)) continue;
       if (i > 0)
@@ -140,15 +140,10 @@ class CameraRun {
       const fs::path folder = work_ / fmt::format("models-{}", i + 1);
       map(is_dense, attempt.first_angle, fmt::format("cameras-{}", i + 1), folder);
       const FeatureDatabase database(setup(is_dense).database);
-      std::vector<fs::path> models = models_in(folder);
-      CameraQuality found = judge(models, names_, match_facts(database, longer_));
-      if (i == 0 || found.registered > quality.registered) {
-        quality = std::move(found);
-        best = std::move(models);
-      }
+      CameraQuality found = judge(folder, names_, match_facts(database, longer_));
+      if (i == 0 || found.registered > quality.registered) quality = std::move(found);
       if (2 * quality.registered >= names_.size()) break;
     }
-    return best;
   }
 
   /// Small photographs, and few ones, which are often far apart, need more features at once.
