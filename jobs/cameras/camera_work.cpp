@@ -33,6 +33,7 @@ class NewLines {
 
   void each(const std::function<void(std::string_view)>& act) {
     stream_.clear();
+    stream_.seekg(0, std::ios::cur);  // some libraries remember the end of a file
     for (std::string part; std::getline(stream_, part);) {
       line_ += part;
       if (stream_.eof()) return;  // the end of the line is not written yet

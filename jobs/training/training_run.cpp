@@ -63,7 +63,7 @@ void check_existing(const TrainingJob& job, const TrainingFiles& files) {
 
 /// A second run with the same output would write into the log and the checkpoint of the first.
 /// Throws UsageError if another run holds the lock, OutputError if the file cannot be created.
-void lock(std::optional<FileLock>& held, const fs::path& file) {
+void take_lock(std::optional<FileLock>& held, const fs::path& file) {
   if (!held.emplace(file).is_held())
     throw UsageError("another run is writing the files beside " + file.string(),
                      "wait for it, stop it, or choose another name with -o");
@@ -133,8 +133,8 @@ TrainingFiles files_of(const TrainingJob& job) {
 TrainingRun::TrainingRun(const TrainingJob& job)
     : job_(job), method_(make_training_method(job.training)), files_(files_of(job)) {
   check_writable(files_);
-  lock(lock_, files_.lock);
-  if (!job.log.empty()) lock(log_lock_, fs::path(files_.log) += ".lock");
+  take_lock(lock_, files_.lock);
+  if (!job.log.empty()) take_lock(log_lock_, fs::path(files_.log) += ".lock");
   check_existing(job, files_);
   control_.emplace(trainer::control_file(files_.log));
   if (job.preview_every > 0) make_folder(files_.previews);
