@@ -10,7 +10,6 @@
 
 #include "base/decimal.hpp"
 #include "base/decimal_text.hpp"
-#include "base/error.hpp"
 
 namespace tureen {
 

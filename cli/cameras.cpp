@@ -27,10 +27,8 @@ ExitCode run(const CamerasCommand& command) {
     if (!command.dataset.empty())
       throw UsageError(command.photographs + " has cameras; its points are written beside them",
                        "omit -o");
-    const PointOutcome outcome = search_points({.dataset = job.photographs,
-                                                .colmap = job.colmap,
-                                                .threads = job.threads,
-                                                .keep_work = job.keep_work});
+    job.dataset = job.photographs;
+    const PointOutcome outcome = search_points(job);
     result = {{"photographs", outcome.photographs},
               {"points", outcome.points},
               {"reprojection_error_px", outcome.error_px},
@@ -76,14 +74,11 @@ do not determine the cameras, 5 interrupted, COLMAP failed, or the dataset canno
       .add_option("PHOTOS", options->photographs,
                   "folder of photographs, a video, or a dataset without points")
       .required();
-  command.add_option("-o,--output", options->dataset, "folder to write; by default PHOTOS.dataset")
-      .value_name("DATASET");
+  command.add_option("-o,--output DATASET", options->dataset,
+                     "folder to write; by default PHOTOS.dataset");
   add_camera_options(command, options->job);
-  command
-      .add_option("--threads", options->job.threads,
-                  "number of CPU threads; one per core by default")
-      .check(between(1, 1024))
-      .value_name("N");
+  command.add_option("--threads N", options->job.threads,
+                     "number of CPU threads; one per core by default", between(1, 1024));
   command.add_flag("--json", options->json,
                    "print the result as one line of JSON to standard output");
   command.does([options] { return run(*options); });

@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <mutex>
 
-#include "base/error.hpp"
 #include "base/output.hpp"
 #include "cli/files/eval_images.hpp"
 #include "cli/files/eval_result.hpp"

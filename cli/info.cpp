@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <glm/mat3x3.hpp>
-#include <glm/trigonometric.hpp>
 #include <map>
 #include <memory>
 #include <optional>

@@ -7,7 +7,6 @@
 
 #include "base/error.hpp"
 #include "base/extension.hpp"
-#include "base/output.hpp"
 #include "cli/commands.hpp"
 #include "cli/files/result_files.hpp"
 #include "cli/options/arguments.hpp"

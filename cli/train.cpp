@@ -364,31 +364,23 @@ ExitCode train(TrainOptions options) {
 
 void add_file_options(Command& command, TrainOptions& options) {
   TrainingJob& job = options.job;
-  command
-      .add_option(
-          "-o,--output", [&job](const std::string& path) { job.output = path; },
-          "scene to write: .glb, .ply or .html, a page")
-      .value_name("OUT.glb");
-  command
-      .add_option(
-          "--log", [&job](const std::string& path) { job.log = path; },
-          "training log to write, JSON lines; OUT.jsonl by default (tureen report plots it)")
-      .value_name("FILE");
-  command
-      .add_option("--checkpoint-every", job.checkpoint_every,
-                  "steps between checkpoints in OUT.checkpoint; every two minutes by default")
-      .check(between(1, 10'000'000))
-      .value_name("N");
+  command.add_option(
+      "-o,--output OUT.glb", [&job](const std::string& path) { job.output = path; },
+      "scene to write: .glb, .ply or .html, a page");
+  command.add_option(
+      "--log FILE", [&job](const std::string& path) { job.log = path; },
+      "training log to write, JSON lines; OUT.jsonl by default (tureen report plots it)");
+  command.add_option("--checkpoint-every N", job.checkpoint_every,
+                     "steps between checkpoints in OUT.checkpoint; every two minutes by default",
+                     between(1, 10'000'000));
   command.add_flag(
       "--resume", job.resume,
       "continue from OUT.checkpoint; gives the same result as an uninterrupted run; needs only -o");
-  command
-      .add_option(
-          "--preview-every", job.preview_every,
-          "steps between previews, images in the folder OUT.previews of a test view beside its "
-          "photograph; no previews by default; with ffmpeg also a video, OUT-previews.mp4")
-      .check(between(1, 10'000'000))
-      .value_name("N");
+  command.add_option(
+      "--preview-every N", job.preview_every,
+      "steps between previews, images in the folder OUT.previews of a test view beside its "
+      "photograph; no previews by default; with ffmpeg also a video, OUT-previews.mp4",
+      between(1, 10'000'000));
   command.add_flag(
       "--watch", options.watch,
       "open a window with the scene and loss curves, to pause, stop or finish the run; its "
@@ -438,11 +430,8 @@ Exit codes: 0 done, 2 wrong usage, or --resume with another dataset or other con
   add_file_options(command, *options);
   add_config_options(command, options->job.training);
   add_camera_options(command, options->cameras);
-  command
-      .add_option("--threads", options->job.threads,
-                  "number of CPU threads; one per core by default")
-      .check(between(1, 1024))
-      .value_name("N");
+  command.add_option("--threads N", options->job.threads,
+                     "number of CPU threads; one per core by default", between(1, 1024));
   command.add_flag("--print-config", options->print_config,
                    "print all constants of this run as JSON, without training");
   command.add_text_flag(

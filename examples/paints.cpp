@@ -1,7 +1,6 @@
 #include "examples/paints.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
 

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "examples/glaze.hpp"
-#include "examples/noise.hpp"
 #include "examples/shapes.hpp"
 
 namespace tureen::example {

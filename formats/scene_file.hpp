@@ -3,12 +3,12 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "formats/read_options.hpp"
-#include "formats/write_options.hpp"
 #include "scene/scene.hpp"
 
 namespace tureen {
@@ -22,6 +22,13 @@ Scene read_scene(const std::filesystem::path& path, const ReadOptions& options =
 
 /// Throws UsageError if write_scene would reject the name.
 void require_written_format(const std::filesystem::path& path);
+
+/// Options of all writers. A writer applies those that concern its format.
+struct WriteOptions {
+  int spz_version = 4;  // or 3, for programs without version 4
+  /// As that of write_tureen_glb(); other writers do not call it.
+  std::function<void(double)> progress = {};
+};
 
 /// Writes by the extension of `path`, the longest that a format has; a DiffSoup export folder if
 /// there is none. The output is complete or absent. Returns one sentence for each loss of the

@@ -1,7 +1,9 @@
 // A preview of a partially loaded file, for a first image while the rest arrives. No state is kept
 // between calls: call for the size until it is known, and for the scene once as many bytes are
-// available. formats/tureen_glb/tureen_glb_preview.hpp and formats/splat/splat_preview.hpp describe
-// the previews of each format.
+// available. formats/tureen_glb/tureen_glb_preview.hpp describes ours. Splats that are stored one
+// after the other have previews of 16,384 splats, then twice as many as before: binary PLY of
+// splats and .splat. Not supported: compressed PLY, whose harmonics follow all splats, and SPZ,
+// where each value of all splats precedes the next value.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,6 @@
 #include "oracle/splat_kernels.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "scene/spherical_harmonics.hpp"

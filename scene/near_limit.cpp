@@ -1,6 +1,5 @@
 #include "scene/near_limit.hpp"
 
-#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "base/error.hpp"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <utility>
 

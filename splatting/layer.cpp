@@ -6,8 +6,6 @@
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 #include <iterator>
-#include <utility>
-#include <vector>
 
 #include "splatting/discs/disc_kernels.hpp"
 #include "splatting/gaussians/gaussian_kernels.hpp"

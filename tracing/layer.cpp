@@ -1,7 +1,6 @@
 #include "tracing/layer.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>

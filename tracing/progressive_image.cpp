@@ -1,7 +1,6 @@
 #include "tracing/progressive_image.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 

@@ -113,7 +113,7 @@ class Spawn {
 
 Process::Process(const std::string& program, const std::vector<std::string>& arguments,
                  const Options& options)
-    : own_group_(options.own_group) {
+    : own_group_(options.own_group), ends_with_us_(options.ends_with_us) {
   Spawn spawn;
   std::array<int, 2> ends{-1, -1};
   if (options.input == Input::sent) {
@@ -223,6 +223,7 @@ void Process::kill() {
 }
 
 Process::~Process() {
+  if (ends_with_us_) kill();
   close_input();
   if (output_ >= 0) close(output_);
 }

@@ -12,7 +12,7 @@
 
 namespace tureen {
 
-/// A program that was started. It continues when this object is destroyed.
+/// A program that was started. It continues when this object is destroyed, unless it ends with us.
 class Process {
  public:
   /// Its standard input: that of this program, none, or the bytes from send().
@@ -27,7 +27,7 @@ class Process {
     /// In a group of its own, Ctrl-C in the terminal does not reach it, and the signals below also
     /// reach the programs that it has started.
     bool own_group = false;
-    /// Ends with the thread that starts it, also if that is killed; on Linux, by setpriv.
+    /// Is killed with this object and with the thread that starts it; on Linux, by setpriv.
     bool ends_with_us = false;
   };
 
@@ -66,7 +66,7 @@ class Process {
   void close_input();
 
   int process_ = -1;
-  bool own_group_ = false;
+  bool own_group_ = false, ends_with_us_ = false;
   int input_ = -1, output_ = -1;  // our ends of connections
   std::optional<int> exit_code_;
 };

@@ -59,20 +59,20 @@ void refuse(const CameraOptions& options, const CameraQuality& quality) {
 }  // namespace
 
 void add_camera_options(Command& command, CameraOptions& options) {
+  const char* group = "Options for photographs without cameras";
   command
-      .add_option("--colmap", options.colmap,
+      .add_option("--colmap PROGRAM", options.colmap,
                   "COLMAP program that finds the cameras; by default colmap on PATH")
-      .value_name("PROGRAM")
-      .group("Options for photographs without cameras");
+      .group(group);
   command
       .add_flag("--accept", options.accept,
                 "continue with cameras that would be rejected: too few were found, or too little "
                 "was measured")
-      .group("Options for photographs without cameras");
+      .group(group);
   command
       .add_flag("--keep-work", options.keep_work,
                 "keep the folder with COLMAP's database, models and logs, DATASET.work")
-      .group("Options for photographs without cameras");
+      .group(group);
 }
 
 std::filesystem::path default_dataset(const std::filesystem::path& photographs) {
@@ -107,7 +107,7 @@ CameraOutcome search_cameras(const CameraOptions& options) {
   return outcome;
 }
 
-PointOutcome search_points(const PointOptions& options) {
+PointOutcome search_points(const CameraOptions& options) {
   Reported reported("points");
   PointOutcome outcome = add_points(options, reported.events);
   reported.clear();

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "cli/options/arguments.hpp"
-#include "jobs/cameras/camera_run.hpp"
 #include "jobs/cameras/known_cameras.hpp"
 
 namespace tureen::cli {
@@ -24,6 +23,6 @@ CameraOutcome search_cameras(const CameraOptions& options);
 
 /// Adds points to a dataset that has cameras, and prints how good they are. Throws the errors of
 /// add_points().
-PointOutcome search_points(const PointOptions& options);
+PointOutcome search_points(const CameraOptions& options);
 
 }  // namespace tureen::cli

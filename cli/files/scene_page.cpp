@@ -4,7 +4,6 @@
 #include <cstdlib>
 #include <optional>
 #include <string_view>
-#include <vector>
 
 #include "base/base64.hpp"
 #include "base/error.hpp"

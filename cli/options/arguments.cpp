@@ -141,16 +141,6 @@ Option Option::required(bool is_required) {
   return *this;
 }
 
-Option Option::value_name(const std::string& name) {
-  option_->option_text(name);
-  return *this;
-}
-
-Option Option::check(const Check& refusal) {
-  option_->check(refusal);
-  return *this;
-}
-
 Option Option::needs(const Option& other) {
   option_->needs(other.option_);
   return *this;

@@ -47,10 +47,6 @@ class Option {
  public:
   /// Parsing fails without this option; `is_required` false makes it optional again.
   Option required(bool is_required = true);
-  /// Name of the value in --help, such as "N" or "FOLDER"; by default its type and requirements.
-  Option value_name(const std::string& name);
-  /// Checks each value before it is stored. Checks run in the order in which they were added.
-  Option check(const Check& refusal);
   /// Parsing fails if this option was given and `other` was not.
   Option needs(const Option& other);
   /// Parsing fails if this option and `other` were given.
@@ -87,7 +83,7 @@ inline constexpr bool holds_option =
 /// Names are "-o,--output FOLDER" for an option with its value in --help (by default the value's
 /// type and requirements), and "SCENE" for a positional argument. Variables keep their value if the
 /// option is not given. Variables, and references in functions, must live until the arguments are
-/// parsed. `help` is the description in --help. `check` precedes the checks of Option::check().
+/// parsed. `help` is the description in --help. `check` checks each value before it is stored.
 class Command {
  public:
   /// Adds a subcommand with --quiet. Parsing then fails unless one is chosen.

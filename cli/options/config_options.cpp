@@ -19,20 +19,21 @@ std::string refuse_seed(const std::string& text) {
 
 Option add_method_option(Command& command, const MethodOption& option, OptionValue& value) {
   const std::string name = std::string("--") + option.name;
+  const std::string named = name + (*option.value_name ? " " : "") + option.value_name;
   switch (option.type) {
     case MethodOption::Type::flag:
       return command.add_flag(name, value.flag, option.help);
     case MethodOption::Type::whole:
-      return command.add_option(name, value.whole, option.help);
+      return command.add_option(named, value.whole, option.help);
     case MethodOption::Type::number:
-      return command.add_option(name, value.number, option.help);
+      return command.add_option(named, value.number, option.help);
     case MethodOption::Type::path:
-      return command.add_option(name, value.text, option.help);
+      return command.add_option(named, value.text, option.help);
     case MethodOption::Type::word:
       break;
   }
   const auto choose = [&](std::size_t index) { value.text = option.words[index]; };
-  return add_word_option(command, name, option.words, choose, option.help);
+  return add_word_option(command, named, option.words, choose, option.help);
 }
 
 }  // namespace
@@ -59,27 +60,22 @@ void add_config_options(Command& command, TrainingOptions& options) {
     options.method = method;
     if (flag) options.own[flag->name].flag = true;
   };
-  add_word_option(command, "--method", names, choose, summaries).value_name("NAME");
-  command.add_option("--config", options.file, "JSON file with constants; --list-config lists them")
-      .value_name("FILE");
-  command
-      .add_option("--steps", options.steps,
-                  "number of optimiser steps; --list-config prints each method's default; "
-                  "overrides the minutes in --config")
-      .value_name("N");
-  command.add_option("--seed", options.seed, "seed of the random numbers; 0 by default")
-      .value_name("N")
-      .check(refuse_seed);
-  command
-      .add_option(
-          "--init", options.begin,
-          "initial primitives: random, points (structure-from-motion points in the dataset), or a "
-          "scene to continue from; by default points if the dataset has them, else random "
-          "(diffsoup, and neural always: Gaussians that are trained first)")
-      .value_name("WHERE");
+  add_word_option(command, "--method NAME", names, choose, summaries);
+  command.add_option("--config FILE", options.file,
+                     "JSON file with constants; --list-config lists them");
+  command.add_option("--steps N", options.steps,
+                     "number of optimiser steps; --list-config prints each method's default; "
+                     "overrides the minutes in --config");
+  command.add_option("--seed N", options.seed, "seed of the random numbers; 0 by default",
+                     refuse_seed);
+  command.add_option(
+      "--init WHERE", options.begin,
+      "initial primitives: random, points (structure-from-motion points in the dataset), or a "
+      "scene to continue from; by default points if the dataset has them, else points found in the "
+      "photographs, or random ones (diffsoup, and neural always: Gaussians that are trained "
+      "first)");
   for (const auto& [option, methods] : all_method_options()) {
     Option added = add_method_option(command, *option, options.own[option->name]);
-    if (*option->value_name) added.value_name(option->value_name);
     if (methods.size() < training_methods().size())
       added.group("Options of " + names_of(methods, ", "));
   }

@@ -1,6 +1,5 @@
 #include "cli/options/renderer_option.hpp"
 
-#include <string>
 #include <utility>
 #include <vector>
 

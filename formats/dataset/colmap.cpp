@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
 #include "formats/dataset/colmap_records.hpp"

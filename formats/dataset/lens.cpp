@@ -1,7 +1,6 @@
 #include "formats/dataset/lens.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -1,7 +1,6 @@
 #include "formats/glb/glb_material.hpp"
 
 #include <optional>
-#include <vector>
 
 #include "base/json/json_vector.hpp"
 #include "image/srgb.hpp"

@@ -10,10 +10,10 @@
 #include <set>
 #include <string_view>
 
+#include "formats/glb/glb_material.hpp"
 #include "formats/gltf/gltf_remarks.hpp"
 #include "formats/gltf/gltf_soup.hpp"
 #include "formats/gltf/gltf_splats.hpp"
-#include "formats/gltf/gltf_surface.hpp"
 #include "image/png.hpp"
 
 namespace tureen {
@@ -33,6 +33,38 @@ bool writes_srgb_colors(const std::string& generator) {
   for (const char* tool : {"trimesh", "open3d", "pymeshlab", "pygltflib", "pyvista"})
     if (contains_ignoring_case(generator, tool)) return true;
   return false;
+}
+
+/// Whether material[part][key] exists, for a part of the JSON that may be missing.
+bool has(const std::optional<JsonView>& part, const char* key) {
+  return part && part->find(key).has_value();
+}
+
+/// Mirrors and glass, materials by which rays see more than a colour:
+/// materials[index] if it is a mirror or glass (scene/material.hpp), nullopt for all others and for
+/// -1. The index must exist. Appends a remark if the material would be one, but has a value outside
+/// its range or varies by a texture. Throws InputError for a value of the wrong type.
+std::optional<Material> read_gltf_surface(const GltfDocument& document, int index,
+                                          std::vector<Remark>& remarks) {
+  if (index < 0) return std::nullopt;
+  const JsonView json = document.root()["materials"].at(std::size_t(index));
+  const auto extensions = json.find("extensions");
+  if (has(extensions, "KHR_materials_unlit")) return std::nullopt;
+  const Material material = read_glb_material(json);
+  if (!is_mirror(material) && !is_glass(material)) return std::nullopt;
+
+  const auto drop = [&](const std::string& reason) {
+    remarks.push_back({&remarks::surface_dropped, {{"material", json.path()}, {"reason", reason}}});
+    return std::nullopt;
+  };
+  if (const auto reason = defect(material)) return drop(*reason);
+  const auto pbr = json.find("pbrMetallicRoughness");
+  const auto transmission = extensions ? extensions->find(transmission_extension) : std::nullopt;
+  if (has(pbr, "metallicRoughnessTexture") || has(transmission, "transmissionTexture"))
+    return drop("a texture varies its metallic, roughness or transmission factor");
+  if (has(pbr, "baseColorTexture"))
+    remarks.push_back({&remarks::surface_texture_dropped, {{"material", json.path()}}});
+  return material;
 }
 
 class Importer {

@@ -5,7 +5,7 @@
 // (COLOR_0); the base colour's factor and texture with its sampler, KHR_texture_transform and alpha
 // mode; normals; perspective cameras. Materials are drawn unlit, with or without
 // KHR_materials_unlit, since a trained soup has its light baked in. Mirrors and glass are layers of
-// their own, for rays: formats/gltf/gltf_surface.hpp.
+// their own, for rays.
 // Gaussian splats (KHR_gaussian_splatting) become a layer for each primitive of a node:
 // formats/gltf/gltf_splats.hpp. They may be SPZ files.
 // Not supported: lines and other points, animation, skins, morph targets, lights, emission, normal

@@ -1,7 +1,6 @@
 #include "formats/sog/codebook.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>

@@ -9,8 +9,6 @@
 #include <glm/gtc/packing.hpp>
 #include <numeric>
 #include <set>
-#include <string>
-#include <vector>
 
 #include "base/little_endian.hpp"
 #include "formats/archive/inflater.hpp"

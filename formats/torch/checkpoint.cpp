@@ -15,7 +15,6 @@
 #include "formats/torch/torch_archive.hpp"
 #include "scene/edit/morton_order.hpp"
 #include "scene/edit/splat_edits.hpp"
-#include "scene/finite.hpp"
 #include "scene/lattice.hpp"
 #include "scene/spherical_harmonics.hpp"
 

@@ -6,7 +6,6 @@
 #include <deque>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "base/output.hpp"
 #include "formats/glb/glb_material.hpp"

@@ -4,7 +4,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
 #include <map>
-#include <optional>
 #include <string_view>
 #include <utility>
 

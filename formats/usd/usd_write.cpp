@@ -1,9 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cmath>
 #include <glm/mat4x4.hpp>
-#include <optional>
 #include <set>
 #include <utility>
 

@@ -1,7 +1,6 @@
 #include "jobs/bench/bench_json.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "jobs/bench/json_reading.hpp"
 #include "jobs/bench/plan_json.hpp"

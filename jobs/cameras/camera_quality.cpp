@@ -8,7 +8,6 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/matrix.hpp>
 #include <map>
-#include <numeric>
 #include <set>
 #include <utility>
 
@@ -137,11 +136,30 @@ bool is_flat(const glm::dmat3& m) {
   return glm::determinant(m) * trace < 0.05 * 0.05 * minors * minors;
 }
 
-void measure(const fs::path& model, CameraQuality& quality) {
-  std::map<std::uint32_t, glm::dvec3> eyes;
-  for (const ColmapImage& image : read_colmap_poses(model).images)
-    eyes[image.number] = glm::dvec3(glm::inverse(image.view_from_world)[3]);
-  const std::vector<ColmapTrack> tracks = read_colmap_tracks(model);
+/// A model of the mapper.
+struct Model {
+  fs::path folder;
+  std::map<std::uint32_t, glm::dvec3> eyes = {};  // by ColmapImage::number
+  std::set<std::string> names = {};               // of the photographs with a camera
+};
+
+/// The models below `folder`, the largest first.
+std::vector<Model> models_in(const fs::path& folder) {
+  std::vector<Model> models;
+  for (int i = 0; is_colmap_model(folder / std::to_string(i)); ++i) {
+    Model& model = models.emplace_back(Model{.folder = folder / std::to_string(i)});
+    for (const ColmapImage& image : read_colmap_poses(model.folder).images) {
+      model.eyes[image.number] = glm::dvec3(glm::inverse(image.view_from_world)[3]);
+      if (image.defect.empty()) model.names.insert(image.name);
+    }
+  }
+  std::stable_sort(models.begin(), models.end(),
+                   [](const Model& a, const Model& b) { return a.names.size() > b.names.size(); });
+  return models;
+}
+
+void measure(const Model& model, CameraQuality& quality) {
+  const std::vector<ColmapTrack> tracks = read_colmap_tracks(model.folder);
   quality.points = tracks.size();
   if (tracks.empty()) return;
   std::vector<double> angles;
@@ -154,7 +172,7 @@ void measure(const fs::path& model, CameraQuality& quality) {
     spread += glm::outerProduct(offset, offset);
     quality.error_px += track.error / double(tracks.size());
     sightings += double(track.images.size());
-    angles.push_back(widest_angle(track, eyes));
+    angles.push_back(widest_angle(track, model.eyes));
   }
   quality.photographs_per_point = sightings / double(tracks.size());
   quality.points_per_photograph =
@@ -189,34 +207,16 @@ MatchFacts match_facts(const FeatureDatabase& database, double longer_side) {
   return facts;
 }
 
-std::vector<fs::path> models_in(const fs::path& folder) {
-  std::vector<std::pair<std::size_t, fs::path>> found;
-  std::error_code error;
-  for (int i = 0; is_colmap_model(folder / std::to_string(i)); ++i) {
-    const fs::path model = folder / std::to_string(i);
-    found.emplace_back(usable_images(read_colmap_poses(model)), model);
-  }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const auto& a, const auto& b) { return a.first > b.first; });
-  std::vector<fs::path> models;
-  for (auto& [count, model] : found) models.push_back(std::move(model));
-  return models;
-}
-
-CameraQuality judge(const std::vector<fs::path>& models, const std::vector<std::string>& names,
+CameraQuality judge(const fs::path& folder, const std::vector<std::string>& names,
                     const MatchFacts& matches) {
   CameraQuality quality{.photographs = names.size()};
-  std::vector<std::set<std::string>> members;
-  for (const fs::path& model : models) {
-    std::set<std::string>& list = members.emplace_back();
-    for (const ColmapImage& image : read_colmap_poses(model).images)
-      if (image.defect.empty()) list.insert(image.name);
-    quality.models.push_back(list.size());
-  }
+  const std::vector<Model> models = models_in(folder);
+  for (const Model& model : models) quality.models.push_back(model.names.size());
   std::set<std::string> missing(names.begin(), names.end());
   if (!models.empty()) {
+    quality.best = models[0].folder;
     quality.registered = quality.models[0];
-    for (const std::string& name : members[0]) missing.erase(name);
+    for (const std::string& name : models[0].names) missing.erase(name);
     measure(models[0], quality);
   }
   quality.unregistered.assign(missing.begin(), missing.end());
@@ -226,21 +226,20 @@ CameraQuality judge(const std::vector<fs::path>& models, const std::vector<std::
   const std::vector<std::string> without = ranges(names, missing);
   // Photographs that only some model has. COLMAP repeats a few of another model.
   std::size_t others = 0;
-  for (std::size_t i = 1; i < members.size(); ++i)
-    others += std::size_t(std::count_if(members[i].begin(), members[i].end(),
-                                        [&](const auto& name) { return missing.count(name) > 0; }));
+  for (std::size_t i = 1; i < models.size(); ++i)
+    for (const std::string& name : models[i].names) others += missing.count(name);
   if (quality.refusals.empty()) {
     // A tenth: fewer are strays, such as some photographs of the ceiling.
     if (others >= least_photographs && 10 * others >= all) {
       std::vector<std::string> parts;
-      for (std::size_t i = 0; i < std::min<std::size_t>(members.size(), 4); ++i) {
-        if (members[i].empty()) continue;
-        const std::vector<std::string> part = ranges(names, members[i]);
+      for (std::size_t i = 0; i < std::min<std::size_t>(models.size(), 4); ++i) {
+        const std::vector<std::string> part = ranges(names, models[i].names);
+        if (part.empty()) continue;
         parts.push_back(part.front() + (part.size() > 1 ? " and others: " : ": ") +
-                        std::to_string(members[i].size()));
+                        std::to_string(models[i].names.size()));
       }
       quality.refusals.push_back(
-          {&remarks::several_models, {{"count", members.size()}, {"parts", parts}}});
+          {&remarks::several_models, {{"count", models.size()}, {"parts", parts}}});
     } else if (2 * registered < all || registered < least_photographs) {
       quality.refusals.push_back({&remarks::few_registered,
                                   {{"registered", registered}, {"all", all}, {"names", without}}});

@@ -30,6 +30,7 @@ MatchFacts match_facts(const FeatureDatabase& database, double longer_side);
 struct CameraQuality {
   std::size_t photographs = 0, registered = 0;
   std::vector<std::size_t> models = {};  // photographs of each, the largest first
+  std::filesystem::path best = {};       // the folder of the largest; empty without models
   std::size_t points = 0;
   double error_px = 0;  // mean reprojection error of the points
   double photographs_per_point = 0;
@@ -42,13 +43,10 @@ struct CameraQuality {
   std::vector<Remark> notes = {};
 };
 
-/// Judges the largest of `models`, which may be empty. `names`: of all photographs, in order.
-/// Throws InputError for models that cannot be read.
-CameraQuality judge(const std::vector<std::filesystem::path>& models,
-                    const std::vector<std::string>& names, const MatchFacts& matches);
-
-/// The folders of the mapper's models below `folder`, the largest first.
-std::vector<std::filesystem::path> models_in(const std::filesystem::path& folder);
+/// Judges the largest of the mapper's models below `folder`, which may have none. `names`: of all
+/// photographs, in order. Throws InputError for models that cannot be read.
+CameraQuality judge(const std::filesystem::path& folder, const std::vector<std::string>& names,
+                    const MatchFacts& matches);
 
 /// Sentences and numbers, for people: "67 of 67 photographs registered".
 std::vector<std::string> describe(const CameraQuality& quality);

@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
-#include <set>
 #include <span>
 #include <utility>
 
@@ -46,13 +44,14 @@ std::string inputs_of(const fs::path& photographs) {
 
 /// A way to search for cameras: the first one that registers half of the photographs counts.
 struct Attempt {
+  const char* change = "";  // from the attempt before
   bool is_dense = false;    // more and smaller features, in a database of their own
   std::size_t nearest = 5;  // neighbours of each photograph (likely_pairs)
-  double first_angle = 16;  // map_stage()
+  double first_angle = 4;   // map_stage()
 };
-constexpr std::array attempts{Attempt{}, Attempt{.first_angle = 4},
-                              Attempt{.nearest = 10, .first_angle = 4},
-                              Attempt{.is_dense = true, .nearest = 10, .first_angle = 4}};
+constexpr std::array attempts{Attempt{.first_angle = 16}, Attempt{"with a closer first pair"},
+                              Attempt{"with more pairs", false, 10},
+                              Attempt{"with more features", true, 10}};
 
 /// Sets with at most so many photographs are often far apart, and cheap to match.
 constexpr std::size_t few_photos = 20;
@@ -61,7 +60,7 @@ class CameraRun {
  public:
   CameraRun(const CameraOptions& options, const CameraEvents& events)
       : options_(options),
-        threads_(options.threads > 0 ? options.threads : std::max(1, this_machine().cores)),
+        threads_(threads_of(options)),
         work_({.folder = fs::absolute(camera_work_folder(options.dataset)),
                .colmap = options.colmap,
                .inputs = inputs_of(options.photographs)},
@@ -81,9 +80,10 @@ class CameraRun {
       return outcome;
     }
     link();
-    std::vector<fs::path> best = reconstruct(outcome.quality);
-    if (best.empty() || !(outcome.quality.refusals.empty() || options_.accept)) return outcome;
-    write_dataset(best.front());
+    reconstruct(outcome.quality);
+    if (outcome.quality.best.empty() || !(outcome.quality.refusals.empty() || options_.accept))
+      return outcome;
+    write_dataset(outcome.quality.best);
     outcome.is_written = true;
     if (!options_.keep_work) work_.remove();
     return outcome;
@@ -102,9 +102,10 @@ class CameraRun {
       });
     }
     set_ = find_photographs(folder, [&](double) { work_.show("reading photographs"); });
-    for (const PhotoFile& photo : set_.photos) names_.push_back(photo.name);
-    for (const PhotoFile& photo : set_.photos)
+    for (const PhotoFile& photo : set_.photos) {
+      names_.push_back(photo.name);
       longer_ = std::max({longer_, photo.size.x, photo.size.y});
+    }
     groups_ = camera_groups(set_);
   }
 
@@ -125,17 +126,13 @@ class CameraRun {
     }
   }
 
-  /// Returns the models of the best attempt, the largest first; none if every one failed.
-  std::vector<fs::path> reconstruct(CameraQuality& quality) {
-    std::vector<fs::path> best;
+  /// Sets the quality of the best attempt.
+  void reconstruct(CameraQuality& quality) {
     for (std::size_t i = 0; i < attempts.size(); ++i) {
       if (!is_worth_trying(i, quality)) continue;
       if (i > 0)
         events_.note(fmt::format("{} of {} photographs were registered; trying again {}",
-                                 quality.registered, names_.size(),
-                                 attempts[i].is_dense      ? "with more features"
-                                 : attempts[i].nearest > 5 ? "with more pairs"
-                                                           : "with a closer first pair"));
+                                 quality.registered, names_.size(), attempts[i].change));
       const Attempt& attempt = attempts[i];
       const bool is_dense = attempt.is_dense || begins_dense();
       find_features(is_dense);
@@ -143,15 +140,10 @@ class CameraRun {
       const fs::path folder = work_ / fmt::format("models-{}", i + 1);
       map(is_dense, attempt.first_angle, fmt::format("cameras-{}", i + 1), folder);
       const FeatureDatabase database(setup(is_dense).database);
-      std::vector<fs::path> models = models_in(folder);
-      CameraQuality found = judge(models, names_, match_facts(database, longer_));
-      if (i == 0 || found.registered > quality.registered) {
-        quality = std::move(found);
-        best = std::move(models);
-      }
+      CameraQuality found = judge(folder, names_, match_facts(database, longer_));
+      if (i == 0 || found.registered > quality.registered) quality = std::move(found);
       if (2 * quality.registered >= names_.size()) break;
     }
-    return best;
   }
 
   /// Small photographs, and few ones, which are often far apart, need more features at once.
@@ -161,17 +153,16 @@ class CameraRun {
   /// Whether the attempt differs from earlier ones in what was missing.
   bool is_worth_trying(std::size_t index, const CameraQuality& before) const {
     if (index == 0) return true;
-    const auto refused = [&](const RemarkKind& kind) {
-      return std::any_of(before.refusals.begin(), before.refusals.end(),
-                         [&](const Remark& remark) { return remark.kind == &kind; });
+    const auto refused = [&](std::initializer_list<const RemarkKind*> kinds) {
+      return std::any_of(before.refusals.begin(), before.refusals.end(), [&](const auto& remark) {
+        return std::find(kinds.begin(), kinds.end(), remark.kind) != kinds.end();
+      });
     };
-    for (const RemarkKind* hopeless :
-         {&remarks::only_turning, &remarks::flat_pictures, &remarks::no_motion})
-      if (refused(*hopeless)) return false;
-    const bool is_blank = refused(remarks::few_features);
-    if (attempts[index].is_dense) return !begins_dense() && !refused(remarks::several_models);
-    if (attempts[index].nearest > 5) return !is_blank && !matches_all();
-    return !is_blank && !refused(remarks::several_models);
+    using namespace remarks;
+    if (refused({&only_turning, &flat_pictures, &no_motion})) return false;
+    if (attempts[index].is_dense) return !begins_dense() && !refused({&several_models});
+    if (attempts[index].nearest > 5) return !refused({&few_features}) && !matches_all();
+    return !refused({&few_features, &several_models});
   }
 
   ColmapSetup setup(bool is_dense) const {
@@ -260,22 +251,19 @@ class CameraRun {
   /// Only the files of the model: COLMAP's own project.ini holds paths of this computer.
   void write_dataset(const fs::path& model) {
     const fs::path made = work_ / "dataset";
-    std::error_code error;
-    fs::remove_all(made, error);
-    make_folder(made / "sparse/0");
-    const char* const files[] = {"cameras.bin", "images.bin", "points3D.bin"};
-    error.clear();
-    for (std::size_t i = 0; i < std::size(files) && !error; ++i)
-      fs::copy_file(model / files[i], made / "sparse/0" / files[i], error);
-    std::error_code unknown;
-    if (!error && fs::exists(work_ / "images", unknown))
-      fs::rename(work_ / "images", made / "images", error);
-    if (error) throw OutputError({made.string()}, "cannot be written: " + error.message());
-    write_file(made / source_file, inputs_of(options_.photographs));
     const fs::path target = fs::absolute(options_.dataset);
-    if (target.has_parent_path()) make_folder(target.parent_path());
-    fs::rename(made, target, error);
-    if (error) throw OutputError({target.string()}, "cannot be written: " + error.message());
+    try {
+      fs::remove_all(made);
+      make_folder(made / "sparse/0");
+      for (const char* file : {"cameras.bin", "images.bin", "points3D.bin"})
+        fs::copy_file(model / file, made / "sparse/0" / file);
+      fs::rename(work_ / "images", made / "images");
+      write_file(made / source_file, inputs_of(options_.photographs));
+      make_folder(target.parent_path());
+      fs::rename(made, target);
+    } catch (const fs::filesystem_error& error) {
+      throw OutputError({target.string()}, "cannot be written: " + error.code().message());
+    }
   }
 
   const CameraOptions& options_;
@@ -290,6 +278,10 @@ class CameraRun {
 };
 
 }  // namespace
+
+int threads_of(const CameraOptions& options) {
+  return options.threads > 0 ? options.threads : std::max(1, this_machine().cores);
+}
 
 fs::path camera_work_folder(const fs::path& dataset) {
   return (dataset.has_filename() ? dataset : dataset.parent_path()).string() + ".work";

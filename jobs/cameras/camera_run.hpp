@@ -12,8 +12,8 @@
 namespace tureen {
 
 struct CameraOptions {
-  std::filesystem::path photographs;  // a folder, or a video
-  std::filesystem::path dataset;      // to write
+  std::filesystem::path photographs;  // a folder, or a video; nothing for add_points()
+  std::filesystem::path dataset;      // to write; for add_points(), as read_dataset() takes it
   std::string colmap = "colmap";      // a path, or a name on PATH
   int threads = 0;                    // 0: one per core
   bool keep_work = false;             // keep the work folder after success
@@ -27,6 +27,8 @@ struct CameraOutcome {
   /// folder stays, unless there are too few photographs.
   bool is_written = false;
 };
+
+int threads_of(const CameraOptions& options);
 
 /// The folder of the unfinished work for a dataset: DATASET.work.
 std::filesystem::path camera_work_folder(const std::filesystem::path& dataset);

@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <memory>
 #include <system_error>
 #include <thread>
@@ -25,37 +26,24 @@ namespace fs = std::filesystem;
 
 constexpr const char* inputs_file = "photographs.txt";
 
-struct CloseStream {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using Stream = std::unique_ptr<std::FILE, CloseStream>;
-
-Stream open_stream(const fs::path& file, const char* mode) {
-  Stream stream(std::fopen(file.c_str(), mode));
-  if (!stream) throw OutputError({file.string()}, "cannot be opened");
-  return stream;
-}
-
 /// The complete lines that a growing file has got since the last call.
 class NewLines {
  public:
-  explicit NewLines(const fs::path& file) : stream_(open_stream(file, "rb")) {}
+  explicit NewLines(const fs::path& file) : stream_(file, std::ios::binary) {}
 
   void each(const std::function<void(std::string_view)>& act) {
-    std::array<char, 4096> part;
-    std::clearerr(stream_.get());
-    while (const std::size_t count = std::fread(part.data(), 1, part.size(), stream_.get())) {
-      rest_.append(part.data(), count);
-      for (std::size_t end; (end = rest_.find('\n')) != std::string::npos;) {
-        act(std::string_view(rest_).substr(0, end));
-        rest_.erase(0, end + 1);
-      }
+    stream_.clear();
+    stream_.seekg(0, std::ios::cur);  // some libraries remember the end of a file
+    for (std::string part; std::getline(stream_, part);) {
+      line_ += part;
+      if (stream_.eof()) return;  // the end of the line is not written yet
+      act(std::exchange(line_, {}));
     }
   }
 
  private:
-  Stream stream_;
-  std::string rest_;
+  std::ifstream stream_;
+  std::string line_;
 };
 
 /// The last lines of a log that say something, for an error.
@@ -156,7 +144,9 @@ bool CameraWork::run(const ColmapStage& stage) {
 }
 
 int CameraWork::follow(const ColmapStage& stage, const fs::path& log) {
-  const Stream output = open_stream(log, "wb");
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> output(std::fopen(log.c_str(), "wb"),
+                                                               &std::fclose);
+  if (!output) throw OutputError({log.string()}, "cannot be opened");
   NewLines lines(log);
   double fraction = 0;
   const auto report = [&] {
@@ -177,16 +167,11 @@ int CameraWork::follow(const ColmapStage& stage, const fs::path& log) {
   } catch (const std::system_error& reason) {
     throw UsageError(options_.colmap + " cannot be started: " + reason.code().message());
   }
-  try {
-    while (!process->ended()) {
-      report();
-      std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    }
-    report();
-  } catch (...) {
-    process->kill();  // its database survives this
-    throw;
+  while (!process->ended()) {
+    report();  // may throw, which kills COLMAP; its database survives this
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
+  report();
   return process->wait();
 }
 

@@ -9,17 +9,14 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <set>
-#include <span>
 
 #include "base/error.hpp"
 #include "base/existing_path.hpp"
 #include "base/output.hpp"
-#include "base/platform/machine.hpp"
 #include "base/threads/on_all_cores.hpp"
 #include "formats/dataset/colmap.hpp"
 #include "formats/dataset/dataset.hpp"
 #include "image/png.hpp"
-#include "jobs/cameras/camera_run.hpp"
 #include "jobs/cameras/colmap_stages.hpp"
 #include "jobs/cameras/feature_database.hpp"
 #include "scene/clip_range.hpp"
@@ -141,7 +138,7 @@ PhotoPairs overlapping_pairs(const std::vector<Camera>& cameras, std::size_t mos
   return {pairs.begin(), pairs.end()};
 }
 
-PointOutcome add_points(const PointOptions& options, const CameraEvents& events) {
+PointOutcome add_points(const CameraOptions& options, const CameraEvents& events) {
   require_there(options.dataset);
   const fs::path place = place_of_points(options.dataset);
   const DatasetSummary summary = read_dataset_summary(options.dataset);
@@ -154,7 +151,7 @@ PointOutcome add_points(const PointOptions& options, const CameraEvents& events)
     longer = std::max({longer, view.camera.width, view.camera.height});
     inputs += view.camera.name + "\n";
   }
-  const int threads = options.threads > 0 ? options.threads : std::max(1, this_machine().cores);
+  const int threads = threads_of(options);
   CameraWork work({.folder = fs::absolute(camera_work_folder(options.dataset)),
                    .colmap = options.colmap,
                    .inputs = inputs},

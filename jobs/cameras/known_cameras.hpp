@@ -3,21 +3,13 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <string>
 #include <vector>
 
-#include "jobs/cameras/camera_work.hpp"
+#include "jobs/cameras/camera_run.hpp"
 #include "jobs/cameras/photo_neighbors.hpp"
 #include "scene/camera.hpp"
 
 namespace tureen {
-
-struct PointOptions {
-  std::filesystem::path dataset;  // as read_dataset() takes it
-  std::string colmap = "colmap";  // a path, or a name on PATH
-  int threads = 0;                // 0: one per core
-  bool keep_work = false;         // keep the work folder after success
-};
 
 struct PointOutcome {
   std::size_t photographs = 0, points = 0;
@@ -35,6 +27,6 @@ PhotoPairs overlapping_pairs(const std::vector<Camera>& cameras, std::size_t mos
 /// training photographs are used, in the dataset's world, without their distortion. Throws
 /// UsageError if the dataset has points, is one of Bundler's, or COLMAP is missing; InputError if
 /// no point is found; the errors of read_dataset() and CameraWork.
-PointOutcome add_points(const PointOptions& options, const CameraEvents& events);
+PointOutcome add_points(const CameraOptions& options, const CameraEvents& events);
 
 }  // namespace tureen

@@ -40,24 +40,21 @@ std::vector<fs::path> images_in(const fs::path& folder) {
   return files;
 }
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
 /// Text that orders names as people do: before each number, its number of digits without zeros in
 /// front.
 std::string sort_key(std::string_view name) {
   std::string key;
-  for (std::size_t i = 0; i < name.size(); ++i) {
-    if (!is_digit(name[i])) {
-      key += name[i];
+  for (std::size_t i = 0; i < name.size();) {
+    const std::size_t end = std::min(name.find_first_not_of("0123456789", i), name.size());
+    if (i == end) {
+      key += name[i++];
       continue;
     }
-    std::size_t end = i + 1;
-    while (end < name.size() && is_digit(name[end])) ++end;
-    while (i + 1 < end && name[i] == '0') ++i;
+    i = std::min(name.find_first_not_of('0', i), end - 1);
     key += '0';  // a digit, where one stood
     key += char(std::min<std::size_t>(end - i, 127));
     key += name.substr(i, end - i);
-    i = end - 1;
+    i = end;
   }
   return key;
 }
@@ -125,7 +122,7 @@ std::optional<fs::path> folder_of_photographs(const fs::path& folder) {
 
 PhotoSet find_photographs(const fs::path& folder, const std::function<void(double)>& progress) {
   require_there(folder);
-  PhotoSet set{.folder = folder};
+  PhotoSet set;
   std::vector<fs::path> files = images_in(folder);
   std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
     return natural_less(a.filename().string(), b.filename().string());

@@ -25,7 +25,6 @@ struct PhotoFile {
 };
 
 struct PhotoSet {
-  std::filesystem::path folder;
   std::vector<PhotoFile> photos = {};  // in the order of natural_less()
   std::vector<Remark> remarks = {};    // photographs that were left out
 };

@@ -78,12 +78,7 @@ void run_ffmpeg(const fs::path& video, std::vector<std::string> arguments, bool 
   } catch (const std::system_error& reason) {
     throw OutputError({}, "ffmpeg cannot be started: " + reason.code().message());
   }
-  try {
-    work(*process);
-  } catch (...) {
-    process->kill();
-    throw;
-  }
+  work(*process);
   if (process->wait() == 0) return;
   std::string text(200, '\0');
   std::rewind(complaints.get());

@@ -1,7 +1,6 @@
 #include "jobs/tradeoff/study.hpp"
 
 #include <cassert>
-#include <cmath>
 #include <iterator>
 
 #include "jobs/timing/benchmark.hpp"

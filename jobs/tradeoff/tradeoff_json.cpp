@@ -1,7 +1,5 @@
 #include "jobs/tradeoff/tradeoff_json.hpp"
 
-#include "jobs/bench/bench_json.hpp"
-
 namespace tureen::results {
 
 namespace {

@@ -1,7 +1,6 @@
 #include "jobs/training/first_gaussians.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <span>
 #include <vector>
 

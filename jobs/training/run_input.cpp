@@ -3,7 +3,6 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "base/error.hpp"
 #include "base/input.hpp"
 #include "base/json/json_text.hpp"
 #include "base/json/json_view.hpp"

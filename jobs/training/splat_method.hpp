@@ -14,7 +14,6 @@
 #include "jobs/training/methods.hpp"
 #include "jobs/training/training_scale.hpp"
 #include "trainer/common/plain_background.hpp"
-#include "trainer/splats/splat_bytes.hpp"
 #include "trainer/splats/splat_forecast.hpp"
 #include "trainer/splats/splat_start.hpp"
 #include "trainer/splats/splat_training.hpp"
@@ -38,6 +37,29 @@ inline const MethodOption max_bytes_option{
         "chooses the degree of their harmonics",
     .instead = "--triangles and --level set the size of a soup",
     .value_name = "N"};
+
+/// Bytes of a splat's values as single floats, as files without compression store them.
+template <class Parameters>
+std::size_t bytes_of_splat(int degree) {
+  return sizeof(float) * Parameters(0, degree).rows();
+}
+
+struct SplatsInBytes {
+  int degree = 0;
+  std::uint64_t splats = 0;
+};
+
+/// The highest degree with which at least Parameters::least_of_degree splats fit in `bytes`, and
+/// that number of splats; 0 splats: not even one fits. Few splats gain more by their number than by
+/// colours that depend on the direction.
+template <class Parameters>
+SplatsInBytes splats_in_bytes(std::uint64_t bytes) {
+  for (int degree = int(Parameters::least_of_degree.size()) - 1; degree > 0; --degree)
+    if (const std::uint64_t splats = bytes / bytes_of_splat<Parameters>(degree);
+        splats >= Parameters::least_of_degree[std::size_t(degree)])
+      return {degree, splats};
+  return {0, bytes / bytes_of_splat<Parameters>(0)};
+}
 
 /// A run on a dataset that was scaled: its callbacks receive scenes in the units of the world, and
 /// the evaluation finds the dataset in them.
@@ -149,7 +171,7 @@ class SplatMethod : public TrainingMethod {
           {"max_bytes", double(*bytes),
            fmt::format("--max-bytes {} allows {} with harmonics of degree {}, of {} bytes each",
                        *bytes, counted(config_.max_splats, "splat"), config_.degree,
-                       trainer::bytes_of_splat<Parameters>(config_.degree))});
+                       bytes_of_splat<Parameters>(config_.degree))});
     if (replaced_minutes_ > 0) plan.notes.push_back(replaced_minutes(replaced_minutes_));
     trainer::SplatRequest<Config, Parameters> request{.config = config_,
                                                       .start = start,
@@ -209,10 +231,10 @@ class SplatMethod : public TrainingMethod {
       throw UsageError("--max-splats and --max-bytes exclude each other",
                        "--max-bytes chooses the number of splats");
     const auto fitting =
-        trainer::splats_in_bytes<Parameters>(std::uint64_t(std::max<std::int64_t>(bytes, 0)));
+        splats_in_bytes<Parameters>(std::uint64_t(std::max<std::int64_t>(bytes, 0)));
     if (fitting.splats == 0)
       throw UsageError(fmt::format("--max-bytes: {} is out of range; one splat has {} bytes", bytes,
-                                   trainer::bytes_of_splat<Parameters>(0)));
+                                   bytes_of_splat<Parameters>(0)));
     config.degree = fitting.degree;
     config.max_splats = fitting.splats;
   }

@@ -9,10 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "base/json/json_text.hpp"
+#include "base/platform/file_lock.hpp"
+#include "jobs/eval/evaluation.hpp"
 #include "jobs/training/training_method.hpp"
-#include "jobs/training/training_outcome.hpp"
 #include "trainer/common/run_control.hpp"
-#include "trainer/common/run_lock.hpp"
 #include "trainer/common/training_files.hpp"
 
 namespace tureen {
@@ -30,6 +31,17 @@ struct TrainingJob {
   std::string input = {};               // RunPlan::input
   std::vector<OwnFact> notes = {};      // further notes for the plan
 };
+
+struct TrainingOutcome {
+  TrainingSummary training;
+  std::optional<Evaluation> evaluation;  // none if the runtime cannot draw the scene here
+  std::string why_not_drawn;             // only without an evaluation
+  std::vector<std::string> output;       // paths of the written files
+};
+
+/// The last line of `tureen train --json`; `views`: number of test views; `scale`: of
+/// the photographs.
+Json to_json(const TrainingOutcome& outcome, std::size_t views, double scale);
 
 /// What a run reports. All functions are set. Each may throw to end the run.
 struct TrainingEvents {
@@ -72,7 +84,7 @@ class TrainingRun {
   const TrainingJob& job_;
   std::unique_ptr<TrainingMethod> method_;
   trainer::TrainingFiles files_;
-  std::optional<trainer::RunLock> lock_, log_lock_;
+  std::optional<FileLock> lock_, log_lock_;
   std::optional<trainer::RunControl> control_;
 };
 

@@ -7,7 +7,6 @@
 #include <glm/common.hpp>
 #include <glm/ext/vector_uint4_sized.hpp>
 #include <glm/geometric.hpp>
-#include <vector>
 
 #include "base/decimal_text.hpp"
 

@@ -1,6 +1,5 @@
 #include "runtime/debug_views/measure_pass.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "runtime/gl/state.hpp"

@@ -1,7 +1,6 @@
 // OSMesa: Mesa's software rasteriser drawing into our memory. Its header clashes with GL loaders,
 // so the few required declarations are here. Mesa 25.1 and later do not include OSMesa.
 #include <array>
-#include <string>
 #include <vector>
 
 #include "base/error.hpp"

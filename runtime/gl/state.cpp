@@ -1,7 +1,6 @@
 #include "runtime/gl/state.hpp"
 
 #include <cstdint>
-#include <initializer_list>
 
 #include "runtime/gl/api.hpp"
 

@@ -1,5 +1,5 @@
 // An appearance before a device exists: the contents of its texel stores, in slot order, and the
-// shader text that reads them. runtime/passes/device_appearance.hpp uploads it.
+// shader text that reads them. runtime/passes/device_soup.hpp uploads it.
 #pragma once
 
 #include <map>

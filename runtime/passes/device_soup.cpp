@@ -2,10 +2,60 @@
 
 #include <utility>
 
-#include "runtime/gl/draw.hpp"
+#include "runtime/gl/api.hpp"
 #include "runtime/passes/shader_source.hpp"
 
+#ifdef __EMSCRIPTEN__
+#include <webgl/webgl1_ext.h>
+#endif
+
 namespace tureen {
+
+namespace {
+
+/// Triangles from the bound vertex array: counts[i] vertices beginning at first[i], run by run, in
+/// one call if the context supports it.
+void draw_runs(const gl::Capabilities& capabilities, std::span<const std::int32_t> first,
+               std::span<const std::int32_t> counts) {
+  const auto runs = static_cast<GLsizei>(first.size());
+  if (!capabilities.multi_draw) {
+    for (std::size_t i = 0; i < first.size(); ++i) glDrawArrays(GL_TRIANGLES, first[i], counts[i]);
+    return;
+  }
+#ifdef __EMSCRIPTEN__
+  glMultiDrawArraysWEBGL(GL_TRIANGLES, first.data(), counts.data(), runs);
+#else
+  glMultiDrawArrays(GL_TRIANGLES, first.data(), counts.data(), runs);
+#endif
+}
+
+}  // namespace
+
+DeviceAppearance::DeviceAppearance(AppearanceSource source)
+    : glsl(std::move(source.glsl)),
+      constants(std::move(source.constants)),
+      mlp(std::move(source.mlp)) {
+  for (AppearanceSource::Sampler& sampler : source.samplers) {
+    samplers.push_back({std::move(sampler.name), TexelStore(source.layout, sampler.source)});
+    sampler.source.fill = nullptr;  // frees its data after the upload
+  }
+}
+
+std::size_t DeviceAppearance::device_bytes() const {
+  std::size_t total = 0;
+  for (const Sampler& sampler : samplers) total += sampler.store.device_bytes();
+  return total;
+}
+
+void DeviceAppearance::bind(const gl::Program& program) const {
+  int unit = 0;
+  for (const Sampler& sampler : samplers)
+    program.set_texture(sampler.name.c_str(), unit++, sampler.store.texture(), GL_TEXTURE_2D_ARRAY);
+  if (!mlp.weights.empty()) {
+    program.set("mlp_weights", std::span<const glm::mat4>(mlp.weights));
+    program.set("mlp_biases", std::span<const glm::vec4>(mlp.biases));
+  }
+}
 
 DeviceSoup::DeviceSoup(const gl::Capabilities& device, AppearanceSource appearance,
                        const GeometrySource& geometry, const SoupPlan& plan)
@@ -65,7 +115,7 @@ void DeviceSoup::draw_clusters(const gl::Program& program, std::span<const Clust
     draw_covered(first, count);
     return;
   }
-  gl::draw_runs(device_, first, count);
+  draw_runs(device_, first, count);
 }
 
 /// Draws those faces of the runs that may be visible.

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <glm/gtc/type_precision.hpp>
-#include <glm/vec4.hpp>
 #include <string>
 
 #include "base/error.hpp"
 #include "runtime/gl/state.hpp"
-#include "scene/triangle_soup.hpp"
 
 namespace tureen {
 

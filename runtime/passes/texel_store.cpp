@@ -1,8 +1,6 @@
 #include "runtime/passes/texel_store.hpp"
 
-#include <algorithm>
 #include <cassert>
-#include <vector>
 
 #include "base/error.hpp"
 #include "runtime/gl/allocation.hpp"

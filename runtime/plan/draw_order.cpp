@@ -1,6 +1,5 @@
 #include "runtime/plan/draw_order.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "base/error.hpp"
-#include "runtime/plan/color_mlp_source.hpp"
 #include "runtime/plan/plan_draft.hpp"
 #include "splatting/layer.hpp"
 

@@ -1,7 +1,6 @@
 // The harmonics' part of a plan: the bands with a visible effect.
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <numbers>
 
 #include "runtime/plan/plan_draft.hpp"

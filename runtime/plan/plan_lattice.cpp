@@ -1,7 +1,6 @@
 // The lattice's part of a plan: the network and the levels, chosen from its texels.
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "runtime/plan/lattice_traits.hpp"
 #include "runtime/plan/plan_draft.hpp"

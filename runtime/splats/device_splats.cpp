@@ -1,7 +1,6 @@
 #include "runtime/splats/device_splats.hpp"
 
 #include <algorithm>
-#include <cassert>
 
 #include "base/decimal_text.hpp"
 #include "base/error.hpp"

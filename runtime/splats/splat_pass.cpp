@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "runtime/gl/state.hpp"
 #include "runtime/passes/targets.hpp"
 
 namespace tureen {

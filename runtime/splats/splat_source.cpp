@@ -1,14 +1,12 @@
 #include "runtime/splats/splat_source.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cstring>
 #include <glm/vec4.hpp>
 #include <numeric>
 #include <span>
 #include <utility>
 
-#include "base/error.hpp"
 #include "scene/spherical_harmonics.hpp"
 #include "splatting/kernel.hpp"
 #include "splatting/kernel_rows.hpp"

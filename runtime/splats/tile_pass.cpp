@@ -1,7 +1,6 @@
 #include "runtime/splats/tile_pass.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <cstring>
 #include <limits>
 

@@ -4,7 +4,6 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
-#include <string>
 
 #include "scene/scene_remarks.hpp"
 #include "scene/similarity.hpp"

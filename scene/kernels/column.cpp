@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <glm/common.hpp>
 #include <glm/exponential.hpp>
 
 namespace tureen {

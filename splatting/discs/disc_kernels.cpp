@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "splatting/gaussians/gaussian_kernels.hpp"
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "splatting/discs/disc_kernels.cpp"
 #include <hwy/foreach_target.h>

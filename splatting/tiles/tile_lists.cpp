@@ -1,7 +1,6 @@
 #include "splatting/tiles/tile_lists.hpp"
 
 #include <algorithm>
-#include <utility>
 
 namespace tureen::splatting {
 

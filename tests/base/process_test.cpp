@@ -123,6 +123,17 @@ TEST(Processes, EndWithTheThreadThatStartsThem) {
   EXPECT_EQ(sleeper->wait(), 128 + SIGKILL);
 }
 
+TEST(Processes, EndWithTheirObject) {
+  const File output = temporary_file();
+  {
+    const Process sleeper("sh", {"-c", "echo $$; exec sleep 600"},
+                          {.output = output.get(), .ends_with_us = true});
+    while (text_in(output).empty()) {
+    }
+  }
+  EXPECT_EQ(kill(std::stoi(text_in(output)), 0), -1);  // no such process
+}
+
 TEST(Processes, EndAlsoIfTheyIgnoreSignals) {
   const File output = temporary_file();
   Process deaf("sh", {"-c", "trap '' INT; echo ready; while :; do sleep 1; done"},

@@ -24,12 +24,12 @@ struct Program {
     draw.add_option("-o,--output FILE", output, "");
     draw.add_option("--lines", lines, "");
     draw.add_option("--cases", cases, "").comma_list();
-    const Option width = draw.add_option("--width", width_, "").check(between(1, 100));
+    const Option width = draw.add_option("--width", width_, "", between(1, 100));
     draw.add_option("--steps", steps, "");
     draw.add_option("--seed", seed, "");
     draw.add_option("--frames", frames, "").needs(width);
     const Option any = draw.add_option("--any", any_, "");
-    draw.add_option("--scale", scale, "").check(between(0.25, 1.0)).excludes(any);
+    draw.add_option("--scale", scale, "", between(0.25, 1.0)).excludes(any);
     draw.add_option(
         "--log", [this](const std::string& text) { log.push_back(text); }, "");
     draw.add_option(

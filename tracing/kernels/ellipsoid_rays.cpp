@@ -9,7 +9,6 @@
 //   t = (b_1 (r_1 . m) S_2 S_3 + ..) / w.
 // No term of q cancels, and nothing is divided by a variance: with S_3 = 0, the point on the ray is
 // that of the disc's plane. w is the determinant of the covariance across the ray.
-#include <algorithm>
 #include <cmath>
 
 #include "tracing/kernels/ray_kernel.hpp"

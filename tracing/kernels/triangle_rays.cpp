@@ -1,7 +1,6 @@
 // Faces of soups and meshes on rays (tracing/kernels/ray_kernel.hpp). Vectors of floats find the
 // faces that a ray may meet; each is then tested in double precision, with edge functions that both
 // faces at an edge round alike: no ray slips through between them.
-#include <cmath>
 
 #include "tracing/appearance.hpp"
 #include "tracing/kernels/face_on_ray.hpp"

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
-#include <cmath>
-
 namespace tureen::trainer {
 
 namespace {

@@ -1,7 +1,6 @@
 #include "trainer/common/training_log.hpp"
 
 #include <cerrno>
-#include <cmath>
 #include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <vector>
 
 #include "base/decimal.hpp"
 #include "scene/lattice.hpp"

@@ -1,7 +1,6 @@
 #include "trainer/diffsoup/model.hpp"
 
 #include <cassert>
-#include <cmath>
 #include <limits>
 
 #include "trainer/common/kernels/scalar.hpp"

@@ -1,6 +1,5 @@
 // from_scene: converts any soup to a model for further training.
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
 

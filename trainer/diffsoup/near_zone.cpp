@@ -4,7 +4,6 @@
 #include <array>
 #include <cassert>
 #include <cstddef>
-#include <glm/mat4x4.hpp>
 
 #include "trainer/common/homogeneous_pixels.hpp"
 

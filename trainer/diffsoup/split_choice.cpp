@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <optional>
 #include <queue>

@@ -11,7 +11,6 @@
 #include "trainer/diffsoup/backing.hpp"
 #include "trainer/diffsoup/near_zone.hpp"
 #include "trainer/diffsoup/split_choice.hpp"
-#include "trainer/diffsoup/topology.hpp"
 
 namespace tureen::trainer {
 

@@ -1,7 +1,6 @@
 #include "trainer/splats/splat_initialise.hpp"
 
 #include <cassert>
-#include <glm/matrix.hpp>
 #include <string>
 
 #include "base/error.hpp"

@@ -1,7 +1,6 @@
 #include "trainer/diffsoup/cpu/face_stage.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "scene/triangle_soup.hpp"
 #include "trainer/common/cpu/vector_clones.hpp"

@@ -1,6 +1,5 @@
 #include "trainer/diffsoup/cpu/texture_store.hpp"
 
-#include <algorithm>
 #include <cstring>
 
 #include "trainer/common/cpu/vector_clones.hpp"

@@ -1,7 +1,6 @@
 #include "trainer/splats/neural/neural_densify.hpp"
 
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
 namespace tureen::trainer {
