@@ -346,9 +346,6 @@ ExitCode train(TrainOptions options) {
   events.failed_aid = [](const std::string& sentence) { say(sentence); };
 
   say_list("Reading " + options.dataset.path + ":", notes_of(dataset.remarks));
-  if (dataset.points.empty() && !start && !job.resume)
-    say("tureen cameras " + shell_word(options.dataset.path) +
-        " adds points by COLMAP, from which training begins better");
   const TrainingOutcome result = run.train(dataset, start ? &*start : nullptr, events);
   progress.reset();
   evaluating.reset();
