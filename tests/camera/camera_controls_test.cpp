@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
+#include <vector>
 
 #include "camera/camera_path.hpp"
 #include "camera/capture.hpp"
@@ -646,7 +647,8 @@ TEST(CameraControls, TheFirstViewIsThatOfOtherProgramsAtAnySize) {
   const Camera first = random_camera(random, 1);
   CameraControls controls = stiff();
   controls.set_first_view(first);
-  for (const glm::ivec2 size : {glm::ivec2(1600, 500), {500, 500}, {390, 844}, {7, 900}}) {
+  for (const glm::ivec2 size :
+       std::vector<glm::ivec2>{{1600, 500}, {500, 500}, {390, 844}, {7, 900}}) {
     controls.set_viewport(size.x, size.y);
     controls.reset();
     EXPECT_EQ(controls.camera(size.x, size.y), resized(whole_in(size, first), size.x, size.y))
