@@ -1,7 +1,12 @@
 #include "base/output_path.hpp"
 
 #include <atomic>
+#include <cstdio>
+#include <map>
+#include <mutex>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "base/error.hpp"
 #include "base/platform/system.hpp"
@@ -43,10 +48,60 @@ fs::path writable_folder(const fs::path& path) {
   return followed(path);
 }
 
+namespace {
+
+constexpr const char* temporary_mark = ".tmp";
+
+#ifndef __EMSCRIPTEN__  // one process, and no threads for a mutex
+
+/// The process of a name that temporary_beside() made; nullopt for other names.
+std::optional<int> process_of(const std::string& name) {
+  const std::size_t mark = name.rfind(temporary_mark);
+  int process = 0, end = 0;
+  if (mark == std::string::npos ||
+      std::sscanf(name.c_str() + mark, ".tmp%9d-%*9u%n", &process, &end) != 1 || process <= 0 ||
+      mark + std::size_t(end) != name.size())
+    return {};
+  return process;
+}
+
+/// Files and folders of killed processes in this folder, which is searched once: an animation
+/// writes thousands of files.
+std::vector<fs::path> leftovers_in(const fs::path& folder) {
+  static std::mutex mutex;
+  static std::map<fs::path, std::vector<fs::path>> known;
+  const std::lock_guard lock(mutex);
+  const auto [found, is_new] = known.try_emplace(folder);
+  std::error_code error;
+  if (is_new)
+    for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
+      if (const auto process = process_of(it->path().filename().string());
+          process && !is_process(*process))
+        found->second.push_back(it->path());
+  return found->second;
+}
+
+void remove_leftovers(const fs::path& path) {
+  const std::string own = path.filename().string() + temporary_mark;
+  const fs::path folder = path.parent_path();
+  std::error_code ignored;
+  for (const fs::path& left : leftovers_in(folder.empty() ? "." : folder))
+    if (const std::string name = left.filename().string();
+        name.starts_with(own) && name.find(temporary_mark, own.size()) == std::string::npos)
+      fs::remove_all(left, ignored);
+}
+
+#else
+void remove_leftovers(const fs::path&) {}
+#endif
+
+}  // namespace
+
 fs::path temporary_beside(const fs::path& path) {
   static std::atomic<unsigned> counter{0};
+  remove_leftovers(path);
   fs::path name = path;
-  name += ".tmp" + std::to_string(process_id()) + "-" + std::to_string(counter++);
+  name += temporary_mark + std::to_string(process_id()) + "-" + std::to_string(counter++);
   return name;
 }
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "camera/angles.hpp"
+#include "camera/capture.hpp"
 #include "scene/finite.hpp"
 
 namespace tureen {
@@ -52,16 +53,6 @@ bool is_sound(const Camera& camera) {
   for (int column = 0; column < 4; ++column)
     finite = finite && is_finite(glm::dvec3(camera.view_from_world[column]));
   return finite && camera.width > 0 && camera.height > 0 && camera.fx > 0 && camera.fy > 0;
-}
-
-/// The camera's image with more at the top and at the bottom, so that it is not wider than the
-/// viewport. The camera itself if it is not.
-Camera whole_in(const glm::dvec2& viewport, Camera camera) {
-  const double height = std::ceil(camera.width * viewport.y / viewport.x);
-  if (!(height > camera.height && height < max_pixels)) return camera;
-  camera.cy += 0.5 * (height - camera.height);
-  camera.height = int(height);
-  return camera;
 }
 
 struct NamedBearing {

@@ -156,8 +156,8 @@ class CameraControls {
   /// The three-quarter view with a field of view of 40 degrees, as after construction.
   void home();
 
-  /// The subject's up axis and the first view: its camera if set, otherwise home(). In a viewport
-  /// narrower than the camera's image, the vertical angle grows until the whole width is inside.
+  /// The subject's up axis and the first view: its camera if set, whole_in() the viewport
+  /// (camera/capture.hpp), otherwise home().
   void reset();
   void set_first_view(const std::optional<Camera>& camera) { first_view_ = camera; }
   /// Whether the goal is still that of reset().

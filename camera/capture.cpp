@@ -131,4 +131,13 @@ std::optional<Camera> first_view_of(const std::optional<Camera>& stored,
   });
 }
 
+Camera whole_in(const glm::dvec2& size, Camera first_view) {
+  constexpr double max_side = 1e7;  // fits an int
+  const double height = std::ceil(first_view.width * size.y / size.x);
+  if (!(height > first_view.height && height < max_side)) return first_view;
+  first_view.cy += 0.5 * (height - first_view.height);
+  first_view.height = int(height);
+  return first_view;
+}
+
 }  // namespace tureen

@@ -3,6 +3,7 @@
 // there. Pure mathematics, as camera/navigation.hpp.
 #pragma once
 
+#include <glm/vec2.hpp>
 #include <optional>
 #include <span>
 #include <vector>
@@ -56,5 +57,10 @@ CameraPathData turntable(const Capture& capture, const Lens& lens, double second
 /// their capture, or the first one if there is no capture. nullopt if there are no cameras.
 std::optional<Camera> first_view_of(const std::optional<Camera>& stored,
                                     std::span<const Camera> cameras, const glm::dvec3& up);
+
+/// The first view for an image or a window of this shape: with more at the top and at the bottom,
+/// so that the camera's whole width is inside, or, if it already is, the camera itself. resized()
+/// then gives it the size. All programs show it so.
+Camera whole_in(const glm::dvec2& size, Camera first_view);
 
 }  // namespace tureen

@@ -132,6 +132,8 @@ ExitCode compare_scenes(const SceneComparison& comparison) {
   Json json{{"a", to_json(of_a, a.result, {})}, {"b", to_json(of_b, b.result, {})}};
   if (!folder.empty()) {
     json["a"]["pairs"] = write_pairs(folder, photographs, a, b);
+    say("Each image in " + folder + " shows, from left to right: the photograph, A (" +
+        comparison.a + "), B (" + comparison.b + "), their difference");
     const std::array<results::ReportResult, 2> sides{
         results::ReportResult{files[0].string(), "eval", json["a"].dump()},
         results::ReportResult{files[0].string(), "eval", json["b"].dump()}};

@@ -189,15 +189,23 @@ void take_from_the_run(TrainOptions& options) {
     throw UsageError("DATASET is required", "--resume needs none, if the log of the run is there");
 }
 
-/// With --minutes and without --scale, chooses the size of the photographs.
-void choose_size(TrainOptions& options, const TrainingMethod& method) {
+/// With --minutes: chooses the size of the photographs, unless --scale does, and notes if the time
+/// is too short for them. Returns the photographs, to compare with the steps at the end.
+std::optional<FullPhotographs> choose_size(TrainOptions& options, const TrainingMethod& method) {
   TrainingJob& job = options.job;
-  if (method.minutes() == 0 || job.resume || options.is_given("--scale")) return;
-  const PhotographSize size = photographs_for(
-      method.minutes(), full_photographs(options.dataset.path, options.dataset.options),
-      *job.training.method, measured_seconds_per_pixel(job.threads));
-  options.dataset.options.scale = size.scale;
-  job.notes.push_back(size.note);
+  if (method.minutes() == 0 || job.resume) return {};
+  FullPhotographs full = full_photographs(options.dataset.path, options.dataset.options);
+  const TrainingMethodInfo& info = *job.training.method;
+  const double speed = measured_seconds_per_pixel(job.threads);
+  double& scale = options.dataset.options.scale;
+  if (!options.is_given("--scale")) {
+    const PhotographSize size = photographs_for(method.minutes(), full, info, speed);
+    scale = size.scale;
+    job.notes.push_back(size.note);
+  }
+  const auto forecast = forecast_of({.minutes = method.minutes()}, scale, full, info, speed);
+  if (auto warning = too_few_steps(forecast->steps, full, info)) job.notes.push_back(*warning);
+  return full;
 }
 
 Dataset read_dataset(const TrainOptions& options) {
@@ -289,7 +297,8 @@ ExitCode train(TrainOptions options) {
   if (finds_cameras) use_photographs(options);
   const std::optional<Scene> start = before_the_first_step(
       options, [&] { return job.resume ? std::nullopt : read_start(job.training, run.method()); });
-  if (!finds_cameras) choose_size(options, run.method());
+  std::optional<FullPhotographs> full;
+  if (!finds_cameras) full = choose_size(options, run.method());
   Dataset dataset = read_dataset(options);
   options.job.input = to_json(RunInput{options.dataset.path, options.dataset.options}, files.log);
 
@@ -346,7 +355,10 @@ ExitCode train(TrainOptions options) {
   events.failed_aid = [](const std::string& sentence) { say(sentence); };
 
   say_list("Reading " + options.dataset.path + ":", notes_of(dataset.remarks));
-  const TrainingOutcome result = run.train(dataset, start ? &*start : nullptr, events);
+  TrainingOutcome result = run.train(dataset, start ? &*start : nullptr, events);
+  if (full)
+    if (auto warning = too_few_steps(result.training.steps, *full, *job.training.method))
+      result.training.own.push_back(*warning);
   progress.reset();
   evaluating.reset();
   if (!result.evaluation && !dataset.test.empty())

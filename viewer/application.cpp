@@ -221,6 +221,14 @@ std::vector<Event> Application::gather_live() {
   return take_frame(pending_);
 }
 
+/// Whether a session clicks a control that may come with the work in progress, such as its
+/// *Cancel*.
+bool Application::waits_for_control() const {
+  const auto* const click = pending_.empty() ? nullptr : std::get_if<ControlClicked>(&pending_[0]);
+  const bool works = !worker_.idle() || !writer_.idle() || !searcher_.idle();
+  return click && works && !item_place(click->name);
+}
+
 std::vector<Event> Application::gather() {
   if (!replay_) return gather_live();
   for (const Event& event : window_.events(0))
@@ -230,6 +238,10 @@ std::vector<Event> Application::gather() {
   if (pending_.empty()) {
     if (replay_->finished()) quit_ = true;
     pending_ = replay_->next(at_rest());
+  }
+  if (waits_for_control()) {
+    frames_wanted_ = std::max(frames_wanted_, 1);
+    return {};
   }
   clicks_ = take_click(pending_);
   return clicks_.empty() ? take_frame(pending_) : take_first(clicks_);
@@ -255,6 +267,10 @@ void Application::frame() {
   }
   state_.busy = worker_.status();
   state_.writing = writer_.status();
+  if (quits_when_written_ && writer_.idle()) {
+    quits_when_written_ = false;
+    if (!state_.has_dialog()) state_.ask(Quit{});  // what was written may need an answer
+  }
   const bool was_searching = state_.searching.has_value();
   state_.searching = searcher_.status();
   // It lasts for minutes: the window does not draw all frames meanwhile.
@@ -304,7 +320,7 @@ void Application::update_gui() {
     gui_scale_ = scale;
     gui_density_ = dense;
   }
-  set_colors(state_.settings.theme);
+  set_colors(state_.theme = state_.settings.theme);
 }
 
 void Application::lay_out(glm::ivec2 points, glm::ivec2 pixels) {
@@ -382,7 +398,7 @@ void Application::draw(const std::vector<Event>& events, double busy_seconds) {
 void Application::draw_image() {
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   gl::use_plain_rasterisation(1, 1);  // clearing depends on masks and scissor, not on the viewport
-  const ImVec4 empty = color_of(palette(state_.settings.theme).page);
+  const ImVec4 empty = color_of(palette(state_.theme).page);
   glClearBufferfv(GL_COLOR, 0, &empty.x);
   if (!state_.stage) return;
   try {

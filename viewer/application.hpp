@@ -71,6 +71,7 @@ class Application {
   // -- a frame
   void frame();
   std::vector<Event> gather();
+  bool waits_for_control() const;
   std::vector<Event> gather_live();
   void update_gui();
   void lay_out(glm::ivec2 points, glm::ivec2 pixels);
@@ -254,7 +255,8 @@ class Application {
   bool drawn_smooth_ = false;  // whether the image may have become the image at rest
   DebugViewChoice drawn_debug_view_;
   bool quit_ = false, vsync_ = false;
-  std::shared_ptr<Rays> rays_;  // kept while State::trace
+  bool quits_when_written_ = false;  // the user wants to close the window
+  std::shared_ptr<Rays> rays_;       // kept while State::trace
   std::shared_ptr<tracing::ProgressiveImage> traced_image_;
   Worker worker_, writer_, tracer_, searcher_;  // last: their jobs may use all of the above
 };

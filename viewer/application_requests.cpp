@@ -189,6 +189,8 @@ void Application::carry_out(const ToggleFullscreen&) {
 }
 
 void Application::carry_out(const Quit& request) {
+  if (!request.discards && !writer_.idle() && !std::exchange(quits_when_written_, true))
+    return state_.note("The window closes when all files are written. Quit again to stop that.");
   if (!request.discards && asks_before({})) return;
   state_.asks_before_quitting = request.training == Quit::Training::ask && training_program_;
   if (state_.asks_before_quitting) return;

@@ -104,6 +104,14 @@ std::string quoted_command(const std::vector<std::string>& arguments) {
   return command;
 }
 
+std::filesystem::path path_for_command(const std::filesystem::path& path) {
+  namespace fs = std::filesystem;
+  std::error_code unknown;
+  const fs::path whole = fs::absolute(path, unknown).lexically_normal();
+  const fs::path below = whole.lexically_relative(fs::current_path(unknown));
+  return unknown || below.empty() || *below.begin() == ".." ? whole : path;
+}
+
 std::vector<std::string> place_arguments(const SceneSource& scene) {
   if (scene.is_as_read()) return {};
   const ReadLayers read(scene);
@@ -161,7 +169,7 @@ std::string render_command(const SceneSource& scene, const DrawingChoice& choice
                            std::optional<std::uint64_t> max_splats, int rays) {
   std::string command = "tureen render";
   for (const std::filesystem::path& path : scene.paths())
-    command += " " + shell_word(path.string());
+    command += " " + shell_word(path_for_command(path).string());
   if (max_splats) command += fmt::format(" --max-splats {}", *max_splats);
   for (const std::string& argument : place_arguments(scene)) command += " " + shell_word(argument);
   if (needs_camera_file(camera)) {

@@ -37,6 +37,10 @@ std::vector<std::string> quality_arguments(const SceneSource& scene, const Drawi
 
 bool needs_camera_file(const Camera& camera);
 
+/// A path for a command that is copied: as it is if it lies below the current folder, otherwise
+/// absolute, because a terminal may be in another folder.
+std::filesystem::path path_for_command(const std::filesystem::path& path);
+
 /// "tureen" and its arguments, for a POSIX shell.
 std::string quoted_command(const std::vector<std::string>& arguments);
 

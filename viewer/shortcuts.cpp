@@ -84,7 +84,7 @@ const std::array table = {
     Shortcut{Key::digit_7, With::nothing, moving, nullptr, look_from<NamedView::three_quarter>},
     Shortcut{Key::digit_8, With::nothing, moving, nullptr, look_from<NamedView::three_quarter_left>},
     Shortcut{Key::digit_9, With::nothing, moving, nullptr, look_from<NamedView::three_quarter_back>},
-    Shortcut{Key::home, With::nothing, moving, "frame the scene from three sides",
+    Shortcut{Key::home, With::nothing, moving, "frame the scene from a corner, as 7; angle 40\u00b0",
              [](State& s) { s.controls.set_mode(NavigationMode::orbit); s.controls.home(); }},
     Shortcut{Key::f, With::nothing, keys, "frame the whole scene",
              [](State& s) { s.controls.set_mode(NavigationMode::orbit); s.controls.frame(); }},

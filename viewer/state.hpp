@@ -239,6 +239,7 @@ enum class PanelTab { scene, drawing, camera };
 
 struct State {
   Settings settings;
+  Theme theme = Theme::dark;            // that of this frame; the settings' from the next one on
   std::filesystem::path images_option;  // folder of --images, before the settings'; empty: none
   SceneSource source;                   // the scene; without files before the first one
   History history;                      // of source.document
@@ -262,7 +263,8 @@ struct State {
   ImageWish image;
   bool show_interface = true;
   PanelTab tab = PanelTab::scene;
-  bool shows_checks = false;  // instead of the background
+  bool shows_checks = false;    // instead of the background
+  std::string background_text;  // in its field; what is typed until the field loses the keys
   bool show_keys = false;
   FileList files;
   bool adds_files = false;  // they become layers of the scene

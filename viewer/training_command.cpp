@@ -111,9 +111,11 @@ std::string forecast_text(const TrainingChoice& choice, const FullPhotographs& f
   const std::string size =
       fmt::format("photographs of {:.0f} \u00d7 {:.0f}", std::round(first.width * forecast->scale),
                   std::round(first.height * forecast->scale));
-  if (typed_minutes > 0)
+  if (typed_minutes > 0) {
+    const auto warning = too_few_steps(forecast->steps, full, *choice.method);
     return "About " + counted(std::uint64_t(std::max(one_digit(forecast->steps), 1.0))) +
-           " steps on " + size + ".";
+           " steps on " + size + (warning ? "; " + warning->text : "") + ".";
+  }
   return "About " + duration_text(60 * one_digit(forecast->minutes)) + " on " + size + ".";
 }
 

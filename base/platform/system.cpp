@@ -6,6 +6,9 @@
 #else
 #include <fcntl.h>
 #include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
 #endif
 
 namespace tureen {
@@ -25,6 +28,14 @@ bool swap_names([[maybe_unused]] const std::filesystem::path& a,
   return renameat2(AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), RENAME_EXCHANGE) == 0;
 #else
   return false;
+#endif
+}
+
+bool is_process([[maybe_unused]] int number) {
+#if defined(_WIN32) || defined(__EMSCRIPTEN__)
+  return true;
+#else
+  return kill(number, 0) == 0 || errno != ESRCH;
 #endif
 }
 

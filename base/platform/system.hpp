@@ -15,6 +15,9 @@ bool swap_names(const std::filesystem::path& a, const std::filesystem::path& b);
 /// The number of this process.
 int process_id();
 
+/// Whether there is a process of this number. True if the system cannot say.
+bool is_process(int number);
+
 /// Whether the stream is a terminal.
 bool is_terminal(std::FILE* stream);
 

@@ -2,13 +2,12 @@
 
 #include <cerrno>
 #include <cmath>
-#include <cstdint>
 #include <cstdlib>
-#include <glm/common.hpp>
 #include <optional>
 
 #include "base/error.hpp"
 #include "image/png.hpp"
+#include "scene/document/color_text.hpp"
 
 namespace tureen::cli {
 
@@ -33,33 +32,6 @@ std::optional<int> whole_number(const std::string& text, int low, int high) {
   const long value = std::strtol(text.c_str(), &end, 10);
   if (text.empty() || *end || errno || value < low || value > high) return {};
   return int(value);
-}
-
-/// The basic colours of CSS, and some that people name (https://www.w3.org/TR/css-color-4).
-struct NamedColor {
-  const char* name;
-  std::uint32_t rgb;
-};
-constexpr NamedColor named_colors[] = {
-    {"aqua", 0x00ffff},      {"beige", 0xf5f5dc}, {"black", 0x000000},     {"blue", 0x0000ff},
-    {"brown", 0xa52a2a},     {"cyan", 0x00ffff},  {"darkgray", 0xa9a9a9},  {"darkgrey", 0xa9a9a9},
-    {"fuchsia", 0xff00ff},   {"gold", 0xffd700},  {"gray", 0x808080},      {"green", 0x008000},
-    {"grey", 0x808080},      {"ivory", 0xfffff0}, {"lightblue", 0xadd8e6}, {"lightgray", 0xd3d3d3},
-    {"lightgrey", 0xd3d3d3}, {"lime", 0x00ff00},  {"magenta", 0xff00ff},   {"maroon", 0x800000},
-    {"navy", 0x000080},      {"olive", 0x808000}, {"orange", 0xffa500},    {"pink", 0xffc0cb},
-    {"purple", 0x800080},    {"red", 0xff0000},   {"silver", 0xc0c0c0},    {"skyblue", 0x87ceeb},
-    {"teal", 0x008080},      {"white", 0xffffff}, {"yellow", 0xffff00}};
-
-glm::vec4 color_of(std::uint32_t rgb) {
-  return {glm::vec3(rgb >> 16 & 255, rgb >> 8 & 255, rgb & 255) / 255.0f, 1};
-}
-
-/// The number of "#rrggbb".
-std::optional<std::uint32_t> hexadecimal(const std::string& text) {
-  if (text.size() != 7 || text[0] != '#' ||
-      text.find_first_not_of("0123456789abcdefABCDEF", 1) != std::string::npos)
-    return {};
-  return std::uint32_t(std::strtoul(text.c_str() + 1, nullptr, 16));
 }
 
 }  // namespace
@@ -104,15 +76,7 @@ glm::dvec3 parse_direction(const std::string& text) {
 }
 
 glm::vec4 parse_background(const std::string& text) {
-  if (text == "transparent") return glm::vec4(0);
-  for (const NamedColor& named : named_colors)
-    if (text == named.name) return color_of(named.rgb);
-  if (const auto rgb = hexadecimal(text)) return color_of(*rgb);
-  const auto color = three_numbers(text);
-  if (!color || *color != glm::clamp(*color, 0.0, 1.0))
-    throw UsageError("'" + text + "' is not a background",
-                     "write a name such as white, #ff8000, transparent or 0.2,0.4,1");
-  return {glm::vec3(*color), 1};
+  return text == "transparent" ? glm::vec4(0) : glm::vec4(parse_color(text), 1);
 }
 
 int parse_integer(const std::string& text, int low, int high) {

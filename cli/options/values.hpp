@@ -25,8 +25,7 @@ glm::dvec3 parse_vector(const std::string& text);
 /// The same, or an axis: "z", "-y".
 glm::dvec3 parse_direction(const std::string& text);
 
-/// A colour of CSS by its name ("white"), "#rrggbb", "transparent" (black with alpha 0), or "r,g,b"
-/// with each from 0 to 1.
+/// parse_color() (scene/document/color_text.hpp), or "transparent": black with alpha 0.
 glm::vec4 parse_background(const std::string& text);
 
 /// A whole number from `low` to `high`.

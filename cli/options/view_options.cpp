@@ -106,7 +106,9 @@ Views animation_along(CameraPathData path, FrameRate rate, const std::optional<I
 
 Views recorded_views(const std::string& argument, const std::string& which_without,
                      const Scene& scene, const std::string& scene_path) {
-  const CameraArgument wanted(argument, which_without);
+  CameraArgument wanted(argument, which_without);
+  if (argument.find_first_not_of("0123456789") == argument.npos && is_missing(wanted.file))
+    wanted = CameraArgument(scene_path, argument);
   CameraFile found = cameras_in(wanted.file, scene, scene_path);
   if (found.cameras.empty()) throw InputError({wanted.file.string()}, "the file has no cameras");
   if (wanted.which == "all") return {std::move(found.cameras), notes_of(found.remarks)};
@@ -152,8 +154,9 @@ void add_view_options(Command& command, ViewOptions& options) {
                      "width and height in pixels, 1280x720 by default; recorded cameras keep their "
                      "own size by default");
   const Option camera = command.add_option(
-      "--camera FILE[:N|:all]", options.camera,
-      "camera N of FILE, counted from 0, or all its cameras. FILE is a JSON file written by "
+      "--camera FILE[:N|:all]|N", options.camera,
+      "camera N of FILE, counted from 0, or all its cameras; a number alone: of SCENE. FILE is a "
+      "JSON file written by "
       "Tureen, NeRF's transforms.json, cameras.json from 3D Gaussian Splatting, the folder of a "
       "COLMAP model, or a scene with cameras, such as SCENE");
   const Option eye =
@@ -202,7 +205,10 @@ Views resolve_views(const ViewOptions& options, const Scene& scene, const std::s
   }
   if (!views.cameras.empty()) {
     if (size)
-      for (Camera& camera : views.cameras) camera = resized(camera, size->width, size->height);
+      for (Camera& camera : views.cameras) {
+        if (options.is_first_view()) camera = whole_in({size->width, size->height}, camera);
+        camera = resized(camera, size->width, size->height);
+      }
     return views;
   }
 

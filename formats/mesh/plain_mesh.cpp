@@ -146,8 +146,9 @@ PlainMesh::PlainMesh(const Scene& scene, const std::string& format, const glm::v
   if (!face_rgba() && !vertex_rgba()) use_mean_colors(format);
   if (layer.world_from_layer != glm::dmat4(1.0)) use_world_positions(layer, format);
   if (scene.info.up != up)
-    lost.push_back(format + " stores no up axis; readers assume " + axis_name(glm::dvec3(up)) +
-                   ".");
+    lost.push_back(format + " stores no up axis: readers assume " + axis_name(glm::dvec3(up)) +
+                   ", but that of the scene is " + axis_name(glm::dvec3(scene.info.up)) +
+                   ", so they show it tilted.");
   if (scene.info.background != glm::vec3(0.0f))
     lost.push_back(format + " holds no background colour.");
   if (!scene.cameras.empty()) lost.push_back(format + " holds no cameras.");

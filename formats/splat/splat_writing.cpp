@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "scene/edit/baked_transform.hpp"
 #include "scene/edit/moved_splats.hpp"
+#include "scene/similarity.hpp"
 #include "scene/spherical_harmonics.hpp"
 
 namespace tureen {
@@ -44,7 +45,8 @@ std::vector<std::string> splat_losses(const Scene& scene, const Layer& layer,
   if (layer.world_from_layer != glm::dmat4(1.0))
     lost.push_back(format + " holds no origin: the splats are written relative to it.");
   if (scene.info.up != splat_up)
-    lost.push_back(format + " stores no up axis; readers assume (0, -1, 0).");
+    lost.push_back(format + " stores no up axis: readers assume -y, but that of the scene is " +
+                   axis_name(glm::dvec3(scene.info.up)) + ", so they show it tilted.");
   if (scene.info.background != glm::vec3(0.0f))
     lost.push_back(format + " holds no background colour.");
   if (!scene.cameras.empty()) lost.push_back(format + " holds no cameras.");

@@ -23,8 +23,8 @@ const MethodOption minutes_option{
     .name = "minutes",
     .type = MethodOption::Type::number,
     .help =
-        "time for the training, more than 0: the number of steps is fitted to it, and without "
-        "--scale the size of the photographs; replaces the steps of --config",
+        "minutes for the training, more than 0: they determine the number of steps and, unless it "
+        "is given, the size of the photographs",
     .instead = "--steps sets the length of the training",
     .value_name = "N",
     .is_common = true};

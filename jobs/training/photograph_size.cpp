@@ -27,6 +27,10 @@ constexpr double least_scale = 0.125;
 /// pixels. Lego with 60,000 splats at the end, in a minute: 404 steps at 0.5, 945 at 0.125.
 constexpr double pixels_of_splats = 50'000;
 
+int wanted_steps(const FullPhotographs& full, const TrainingMethodInfo& method) {
+  return full.of_an_object ? method.least_steps / 4 : method.least_steps;
+}
+
 Dataset noise() {
   constexpr int size = 256, views = 4;
   Dataset dataset;
@@ -78,6 +82,7 @@ double measured_seconds_per_pixel(int threads) {
 
 FullPhotographs full_photographs(const std::filesystem::path& dataset, DatasetOptions options) {
   options.part = DatasetPart::train;
+  options.scale = 1;
   FullPhotographs full;
   for (const DatasetSummary::View& view : read_dataset_summary(dataset, options).train)
     full.cameras.push_back(view.camera);
@@ -104,7 +109,7 @@ std::optional<TrainingForecast> forecast_of(const TrainingLength& length,
   if (!(length.minutes > 0 || length.steps > 0)) return {};
   TimeForSteps time{.seconds = 60 * length.minutes,
                     .seconds_per_pixel = seconds_per_pixel * method.cost_of_pixel,
-                    .steps = full.of_an_object ? method.least_steps / 4 : method.least_steps};
+                    .steps = wanted_steps(full, method)};
   for (const Camera& camera : full.cameras)
     time.pixels += double(camera.width) * camera.height / double(full.cameras.size());
   TrainingForecast forecast{.minutes = length.minutes, .steps = length.steps};
@@ -115,6 +120,17 @@ std::optional<TrainingForecast> forecast_of(const TrainingLength& length,
   else
     forecast.minutes = length.steps * step / 60;
   return forecast;
+}
+
+std::optional<OwnFact> too_few_steps(double steps, const FullPhotographs& full,
+                                     const TrainingMethodInfo& method) {
+  const double needed = std::max(double(full.cameras.size()), wanted_steps(full, method) / 4.0);
+  if (steps >= needed) return {};
+  return OwnFact{"too_few_steps", needed,
+                 fmt::format("fewer than {} steps from {} leave a scene blurred: more minutes, or "
+                             "smaller photographs, allow more steps",
+                             counted(std::uint64_t(std::ceil(needed))),
+                             counted(full.cameras.size(), "photograph"))};
 }
 
 double one_digit(double value) {

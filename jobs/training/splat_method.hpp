@@ -33,7 +33,8 @@ inline const MethodOption max_bytes_option{
     .name = "max-bytes",
     .type = MethodOption::Type::whole,
     .help =
-        "instead of --max-splats: largest number of bytes of all splats, as 32-bit floats; also "
+        "instead of a number of splats: largest number of bytes of all splats, as 32-bit floats; "
+        "also "
         "chooses the degree of their harmonics",
     .instead = "--triangles and --level set the size of a soup",
     .value_name = "N"};

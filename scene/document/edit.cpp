@@ -52,8 +52,11 @@ struct Apply {
     return undo;
   }
   Edit operator()(const PlaceLayer& edit) const {
-    return PlaceLayer{edit.id, set_member(document, edit.id, &LayerPlace::world_from_layer,
-                                          edit.world_from_layer)};
+    PlaceLayer undo{edit.id, set_member(document, edit.id, &LayerPlace::world_from_layer,
+                                        edit.world_from_layer)};
+    if (edit.visible)
+      undo.visible = set_member(document, edit.id, &LayerPlace::visible, *edit.visible);
+    return undo;
   }
   Edit operator()(const RenameLayer& edit) const {
     return RenameLayer{edit.id, set_member(document, edit.id, &LayerPlace::name, edit.name)};
@@ -118,11 +121,12 @@ struct Describe {
     const bool moves = before.position != after.position, mirrors = before.mirror != after.mirror;
     const bool turns = glm::distance(before.angles, after.angles) > rounding;
     const bool scales = std::abs(after.scale / before.scale - 1) > rounding;
-    const char* const word = moves + turns + scales + mirrors > 1 ? "Place "
-                             : turns                              ? "Turn "
-                             : scales                             ? "Scale "
-                             : mirrors                            ? "Mirror "
-                                                                  : "Move ";
+    const bool shows = edit.visible.value_or(layer->visible) != layer->visible;
+    const char* const word = moves + turns + scales + mirrors + shows > 1 ? "Place "
+                             : turns                                      ? "Turn "
+                             : scales                                     ? "Scale "
+                             : mirrors                                    ? "Mirror "
+                                                                          : "Move ";
     return word + layer->name;
   }
   std::string operator()(const RenameLayer& edit) const { return "Rename " + name_of(edit.id); }
@@ -150,8 +154,11 @@ std::string describe(const Edit& edit, const Document& document) {
 
 bool sets_the_same(const Edit& first, const Edit& second) {
   if (first.index() != second.index()) return false;
-  if (const auto* place = std::get_if<PlaceLayer>(&first))
-    return place->id == std::get<PlaceLayer>(second).id;
+  if (const auto* place = std::get_if<PlaceLayer>(&first)) {
+    const auto& next = std::get<PlaceLayer>(second);
+    // What undoes the first must also undo a change of the visibility.
+    return place->id == next.id && place->visible.has_value() == next.visible.has_value();
+  }
   if (const auto* name = std::get_if<RenameLayer>(&first))
     return name->id == std::get<RenameLayer>(second).id;
   if (const auto* surface = std::get_if<SetMaterial>(&first))

@@ -1,6 +1,7 @@
 // Changes of a document, as values. Applying one returns the change that undoes it.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -22,6 +23,7 @@ struct RemoveLayers {
 struct PlaceLayer {
   LayerId id = 0;
   glm::dmat4 world_from_layer{1.0};
+  std::optional<bool> visible = {};  // default: as before
 };
 struct RenameLayer {
   LayerId id = 0;

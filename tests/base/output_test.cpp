@@ -8,6 +8,8 @@
 #include <iterator>
 #include <string>
 
+#include "base/platform/system.hpp"
+
 namespace tureen {
 namespace output_test {
 
@@ -35,6 +37,23 @@ class OutputFile : public testing::Test {
 
   fs::path folder, file;
 };
+
+TEST_F(OutputFile, RemovesWhatKilledProcessesLeft) {
+  // Linux numbers processes up to 4,194,304.
+  const std::string own = std::to_string(process_id());
+  for (const std::string& kept :
+       {"scene.glb.tmp" + own + "-99", std::string("other.glb.tmp999999999-0"),
+        std::string("scene.glb.tmp999999999"), std::string("scene.glb.tmp999999999-0.old"),
+        std::string("scene.glb.tmp999999999-0.tmp999999999-0")})
+    std::ofstream(folder / kept) << "x";
+  std::ofstream(folder / "scene.glb.tmp999999999-0") << "x";
+  fs::create_directories(folder / "scene.glb.tmp999999998-12/images");
+  write_file(file, "new");
+  EXPECT_EQ(content(), "new");
+  EXPECT_EQ(names(), 6);
+  EXPECT_FALSE(fs::exists(folder / "scene.glb.tmp999999999-0"));
+  EXPECT_FALSE(fs::exists(folder / "scene.glb.tmp999999998-12"));
+}
 
 TEST_F(OutputFile, IsThereOnceItIsCommitted) {
   {

@@ -11,8 +11,10 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
+#include <vector>
 
 #include "camera/camera_path.hpp"
+#include "camera/capture.hpp"
 #include "tests/support/random.hpp"
 
 namespace tureen {
@@ -637,6 +639,21 @@ TEST(CameraControls, TheFirstViewShowsTheWholeRecordedImage) {
   controls.adopt(first);
   controls.set_viewport(390, 844);
   EXPECT_EQ(controls.camera(390, 844), resized(first, 390, 844)) << "as is any other camera";
+}
+
+/// `tureen render` draws the right side (cli/options/view_options.cpp).
+TEST(CameraControls, TheFirstViewIsThatOfOtherProgramsAtAnySize) {
+  Random random(9);
+  const Camera first = random_camera(random, 1);
+  CameraControls controls = stiff();
+  controls.set_first_view(first);
+  for (const glm::ivec2 size :
+       std::vector<glm::ivec2>{{1600, 500}, {500, 500}, {390, 844}, {7, 900}}) {
+    controls.set_viewport(size.x, size.y);
+    controls.reset();
+    EXPECT_EQ(controls.camera(size.x, size.y), resized(whole_in(size, first), size.x, size.y))
+        << size.x;
+  }
 }
 
 TEST(CameraControls, ResetRestoresTheUpAxis) {

@@ -256,6 +256,8 @@ TEST_F(LayersProgram, TheFirstViewIsStoredAndShown) {
   ASSERT_EQ(run({"convert", "first.glb", "cameras.glb", "--force"}).exit_code, 0);
   EXPECT_EQ(size({}), 48);
   EXPECT_EQ(size({"--camera", "cameras.glb:0"}), 40);
+  EXPECT_EQ(size({"--camera", "0"}), 40);
+  expect_usage_error({"render", "cameras.glb", "--camera", "999"}, "from 0 to 1");
   ASSERT_EQ(run({"convert", "scene.off", "other.glb", "--view", "cameras.glb:0"}).exit_code, 0);
   EXPECT_EQ(read_scene(folder / "other.glb").first_view, scene.cameras[0]);
   expect_usage_error({"convert", "scene.off", "no.glb", "--view", "0"}, "the scene has none");

@@ -241,9 +241,10 @@ TEST(Off, SaysWhatWritingLosesInEnglish) {
   TemporaryFolder folder;
   EXPECT_THAT(
       write_off(scene, folder / "a.off"),
-      ElementsAre("OFF stores no up axis; readers assume z.", "OFF holds no background colour.",
-                  "OFF holds no cameras.", "OFF holds no first view.",
-                  "OFF holds colours in 8 bits: they are rounded."));
+      ElementsAre("OFF stores no up axis: readers assume z, but that of the scene is x, so they "
+                  "show it tilted.",
+                  "OFF holds no background colour.", "OFF holds no cameras.",
+                  "OFF holds no first view.", "OFF holds colours in 8 bits: they are rounded."));
   // Rounding is half up, so an alpha of one half stays visible.
   EXPECT_THAT(face_rgba(read_off(folder / "a.off")),
               ElementsAre(glm::vec4(128 / 255.0f, 0, 0, 128 / 255.0f)));

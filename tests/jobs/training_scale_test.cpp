@@ -79,6 +79,25 @@ TEST(PhotographSize, IsInTheNote) {
   EXPECT_GT(measured_seconds_per_pixel(1), 0);
 }
 
+TEST(PhotographSize, TooFewStepsAreNoted) {
+  FullPhotographs full;
+  full.cameras.resize(40);
+  const TrainingMethodInfo& method = *training_methods()[1];
+  const int least = method.least_steps / 4;
+  ASSERT_GT(least, 200);
+  EXPECT_FALSE(too_few_steps(least, full, method));
+  const auto warning = too_few_steps(least - 1, full, method);
+  ASSERT_TRUE(warning);
+  EXPECT_EQ(std::get<double>(warning->value), least);
+  EXPECT_THAT(warning->text, testing::HasSubstr("40 photographs"));
+  EXPECT_THAT(warning->text, testing::HasSubstr("more minutes"));
+  full.of_an_object = true;  // a quarter suffices
+  EXPECT_FALSE(too_few_steps(least / 4, full, method));
+  full.cameras.resize(std::size_t(least));  // each once
+  EXPECT_TRUE(too_few_steps(least - 1, full, method));
+  EXPECT_FALSE(too_few_steps(least, full, method));
+}
+
 TEST(RunInput, ComesBackFromTheLog) {
   const std::filesystem::path folder =
       std::filesystem::path(testing::TempDir()) / "tureen_run_input";

@@ -75,7 +75,8 @@ Edit random_edit(Document& document, Random& random) {
     case 1:
       return RemoveLayers{{id, document.layers.empty() ? 0 : document.layers[0].id}};
     case 2:
-      return PlaceLayer{id, moved(random.uniform(-1, 1))};
+      return PlaceLayer{id, moved(random.uniform(-1, 1)),
+                        below(2) == 0 ? std::nullopt : std::optional(below(2) == 0)};
     case 3:
       return RenameLayer{id, "name " + std::to_string(below(100))};
     case 4:
@@ -188,6 +189,24 @@ TEST(Histories, AGestureIsOneStep) {
   EXPECT_EQ(history.steps().size(), 5u);
   history.go_to(document, 1);
   EXPECT_EQ(document.layers[0].world_from_layer, moved(10));
+  history.undo(document);
+  EXPECT_TRUE(same(document, before));
+}
+
+TEST(Histories, APlaceAndAVisibilityAreOneStep) {
+  Document document = three_layers();
+  const Document before = document;
+  History history;
+  const LayerId soup = document.layers[0].id;
+  history.perform(document, PlaceLayer{soup, moved(1)}, 7);
+  history.perform(document, PlaceLayer{soup, moved(2), false}, 7);  // sets more: another step
+  history.perform(document, PlaceLayer{soup, moved(3), false}, 7);
+  EXPECT_FALSE(document.layers[0].visible);
+  ASSERT_EQ(history.steps().size(), 2u);
+  EXPECT_EQ(history.steps()[1].name, "Place " + document.layers[0].name);
+  history.undo(document);
+  EXPECT_TRUE(document.layers[0].visible);
+  EXPECT_EQ(document.layers[0].world_from_layer, moved(1));
   history.undo(document);
   EXPECT_TRUE(same(document, before));
 }

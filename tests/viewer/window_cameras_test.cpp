@@ -1,7 +1,10 @@
 // Photographs without cameras that are dropped on the window, with a stand-in for COLMAP.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 
 #include "base/output.hpp"
 #include "base/platform/process.hpp"
@@ -49,6 +52,23 @@ TEST_F(WindowCameras, AreFoundAndOfferedForTraining) {
   const ChildResult opened = replay(again.wait().drop("photos").wait().click("Cancel"));
   EXPECT_EQ(opened.exit_code, 0) << opened.err;
   EXPECT_FALSE(fs::exists(folder_ / "calls"));
+}
+
+TEST_F(WindowCameras, CancelEndsTheSearch) {
+  take(12);
+  ::setenv("STAND_IN", "slow=feature_extractor", 1);
+  Person person({1000, 700});
+  person.wait().point({200, 300}).look("before").drop("photos").wait();
+  person.click_at_once("Find the cameras").hold(Key::super, 0.1).click("Cancel");
+  const ChildResult result = replay(person.point({200, 300}).without_notes().look("after"));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  expect_equal(image("after"), image("before"));
+  EXPECT_FALSE(fs::exists(folder_ / "photos.dataset/transforms.json"));
+  EXPECT_FALSE(is_dataset(folder_ / "photos.dataset"));
+  std::ifstream file(folder_ / "calls");
+  const std::string calls{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_THAT(calls, testing::HasSubstr("feature_extractor"));
+  EXPECT_EQ(std::count(calls.begin(), calls.end(), '\n'), 1) << calls;
 }
 
 TEST_F(WindowCameras, ThatAreNotTrustedWriteNoDataset) {

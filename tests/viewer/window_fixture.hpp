@@ -34,6 +34,8 @@ class Person {
 
   Person& wait() { return add(AwaitRest{}); }
   Person& press(Key key) { return add(KeyChanged{key, true}).add(KeyChanged{key, false}); }
+  Person& begin_press(Key key) { return add(KeyChanged{key, true}); }
+  Person& end_press(Key key) { return add(KeyChanged{key, false}); }
   Person& press_with_control(Key key, std::optional<Key> too = {}) {
     add(KeyChanged{Key::control, true});
     if (too) add(KeyChanged{*too, true});
@@ -87,6 +89,12 @@ class Person {
   Person& take(const std::string& name) { return add(WindowScreenshot{name + ".png"}); }
   /// Waits until loading and motion are finished, then adds a screenshot.
   Person& look(const std::string& name) { return wait().add(WindowScreenshot{name + ".png"}); }
+
+  /// Moves the last event into the frame of the one before.
+  Person& at_once() {
+    now_ = session_.events.back().seconds = (session_.events.end() - 2)->seconds;
+    return *this;
+  }
 
   const Session& session() const { return session_; }
 

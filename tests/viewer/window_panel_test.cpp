@@ -119,6 +119,52 @@ TEST_F(WindowPanel, KeepsAFirstViewAndTheBackgroundInTheFile) {
       compare(to_float(image("again")), to_float(image("kept")), {.with_flip = false}).psnr_db, 40);
 }
 
+TEST_F(WindowPanel, TakesColoursByNameAndSaysWhatItCannotRead) {
+  Person person({1000, 700});
+  person.wait().click("tab: Drawing").click("Background").select_all().type("wheat");
+  person.press_with_control(Key::s).wait().without_notes().look("wheat");
+  person.click("Background").select_all().type("whaet").look("refused");
+  const ChildResult result = replay(person.press_with_control(Key::s).wait());
+  EXPECT_EQ(result.exit_code, 1) << "the window shows the error at the end";
+  EXPECT_THAT(result.err, testing::HasSubstr("'whaet' is not a colour"));
+  EXPECT_NE(image("refused").pixels, image("wheat").pixels);
+  const glm::vec3 wheat = glm::vec3(0xf5, 0xde, 0xb3) / 255.0f;
+  EXPECT_LT(glm::distance(read_scene(folder_ / "soup.glb").info.background, wheat), 1e-6f);
+}
+
+TEST_F(WindowPanel, AFrameHasOneTheme) {
+  Person person({1000, 700});
+  person.wait().point({200, 300}).look("dark");
+  person.begin_press(Key::t).take("meanwhile").at_once().end_press(Key::t).look("light");
+  const ChildResult result = replay(person);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  expect_equal(image("meanwhile"), image("dark"));
+  EXPECT_NE(image("light").pixels, image("dark").pixels);
+}
+
+/// As the window system reports it: pointer and button come together.
+TEST_F(WindowPanel, TheFirstClickOnATabCounts) {
+  Person person({1000, 700});
+  const glm::dvec2 tab{827, 25}, image_middle{200, 300};
+  person.wait().look("scene").begin_drag(tab).at_once().end_drag().point(image_middle);
+  person.look("drawing").click("tab: Drawing").point(image_middle).look("clicked");
+  const ChildResult result = replay(person);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(image("drawing").pixels, image("scene").pixels);
+  expect_equal(image("drawing"), image("clicked"));
+}
+
+TEST_F(WindowPanel, ClosesAfterTheSceneIsSaved) {
+  Person person({1000, 700});
+  person.wait().click("tab: Drawing").click("Background").select_all().type("wheat");
+  person.press_with_control(Key::s).press_with_control(Key::q).wait().hold(Key::super, 1);
+  const ChildResult result = replay(person.look("open"));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_FALSE(fs::exists(folder_ / "pictures/open.png")) << "the window is still open";
+  const glm::vec3 wheat = glm::vec3(0xf5, 0xde, 0xb3) / 255.0f;
+  EXPECT_LT(glm::distance(read_scene(folder_ / "soup.glb").info.background, wheat), 1e-6f);
+}
+
 TEST_F(WindowPanel, FliesAlongTheRecordedCameras) {
   Person person({1000, 700});
   person.wait().click("tab: Camera").click("section: View").click("section: Image");

@@ -182,6 +182,9 @@ TEST_F(PageViews, ADragIsOneStepAndAMovedViewIsNone) {
   view.show_layer(id(1), true);  // as it is
   view.move_layer(id(1), 1);
   EXPECT_THAT(steps(), ElementsAre("Move soup", "Move soup"));
+  view.place_layer(id(0), at_origin({2, 0, 0}), false);  // only the visibility changes
+  view.place_layer(id(0), at_origin({3, 0, 0}), true);
+  EXPECT_THAT(steps(), ElementsAre("Move soup", "Move soup", "Hide soup", "Place soup"));
   view.set_up({0, 0, 1});
   view.controls().orbit(10, 5);
   EXPECT_EQ(steps().back(), "Change the up axis");

@@ -61,8 +61,7 @@ void set_colors(Theme theme) {
       ImGuiCol_PlotLines, ImGuiCol_PlotHistogram, ImGuiCol_PlotHistogramHovered,
       ImGuiCol_NavHighlight, ImGuiCol_SeparatorHovered, ImGuiCol_SeparatorActive);
   style.Colors[ImGuiCol_ScrollbarBg] = style.Colors[ImGuiCol_ChildBg] = {0, 0, 0, 0};
-  // Dear ImGui fades this colour in, and the window draws no frames for it.
-  style.Colors[ImGuiCol_ModalWindowDimBg] = {0, 0, 0, 0};
+  style.Colors[ImGuiCol_ModalWindowDimBg] = {0, 0, 0, 0.45f};
   style.Colors[ImGuiCol_ResizeGrip] = color_of(of.line);
   style.Colors[ImGuiCol_ResizeGripHovered] = style.Colors[ImGuiCol_ResizeGripActive] =
       color_of(of.edge);

@@ -1,9 +1,16 @@
 // The plan in words, and switches for its parts, to see their cost.
+// clang-format off: the second header needs the first
+#include <imgui/imgui.h>
+#include <imgui/imgui_stdlib.h>
+// clang-format on
+
 #include <algorithm>
 #include <string>
 #include <vector>
 
+#include "base/error.hpp"
 #include "runtime/plan/plan_description.hpp"
+#include "scene/document/color_text.hpp"
 #include "viewer/gui/item_places.hpp"
 #include "viewer/panels.hpp"
 #include "viewer/panels/widgets.hpp"
@@ -41,8 +48,20 @@ void sampling(State& state) {
 void background_rows(State& state) {
   glm::vec3 color = background_of(state.source);
   field("Background");
-  ImGui::SetNextItemWidth(9 * ImGui::GetFontSize());
-  if (ImGui::ColorEdit3("##background", &color.x, ImGuiColorEditFlags_DisplayHex))
+  const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
+  ImGui::SetNextItemWidth(9 * ImGui::GetFontSize() - ImGui::GetFrameHeight() - gap);
+  ImGui::InputText("##background", &state.background_text, ImGuiInputTextFlags_AutoSelectAll);
+  if (ImGui::IsItemDeactivatedAfterEdit() && state.background_text != color_text(color)) {
+    try {
+      state.edit(ChangeBackground{color = parse_color(state.background_text)});
+    } catch (const UsageError& error) {
+      state.error("The background was not changed", error.what());
+    }
+  }
+  if (!ImGui::IsItemActive()) state.background_text = color_text(color);
+  tip("A name such as white, or #ff8000");
+  ImGui::SameLine(0, gap);
+  if (ImGui::ColorEdit3("##colors", &color.x, ImGuiColorEditFlags_NoInputs))
     state.edit(ChangeBackground{color}, true);
   ImGui::SameLine();
   {

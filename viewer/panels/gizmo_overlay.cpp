@@ -91,7 +91,7 @@ void follow_pointer(State& state, const DocumentLayer& layer, const Gizmo& gizmo
   if (!change) return;
   if (change->world_from_layer != layer.world_from_layer)
     state.edit(PlaceLayer{layer.id, change->world_from_layer}, true);
-  draw_words(*ImGui::GetForegroundDrawList(), change->text, pointer, state.settings.theme);
+  draw_words(*ImGui::GetForegroundDrawList(), change->text, pointer, state.theme);
 }
 
 }  // namespace

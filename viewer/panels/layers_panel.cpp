@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -58,24 +57,36 @@ bool layer_row(State& state, const DocumentLayer& layer, bool selected) {
   return clicked;
 }
 
-/// Lengths to a hundred-thousandth of the scene's size: the noise of rounding disappears.
-std::string length_format(double radius) {
-  return fmt::format("%.{}f", std::clamp(5 - int(std::floor(std::log10(radius))), 0, 12));
+/// Digits for lengths to about a thousandth of the scene's size: three such numbers fit in a row.
+int length_digits(double radius) {
+  return std::clamp(3 - int(std::floor(std::log10(radius))), 0, 12);
 }
 
-/// A row of numbers to drag, or to type after a double click. Returns whether they changed.
-bool numbers_row(const char* name, std::span<double> values, double speed, const char* format) {
+/// Three numbers to drag, or to type after a double click. What is below `noise` is shown as 0,
+/// without a sign. Returns whether they changed.
+bool numbers_row(const char* name, glm::dvec3& values, double speed, double noise,
+                 const char* format) {
+  glm::dvec3 shown = values;
+  for (int i = 0; i < 3; ++i)
+    if (std::abs(shown[i]) < noise) shown[i] = 0;
+  const glm::dvec3 before = shown;
   field(name);
-  return ImGui::DragScalarN(fmt::format("##{}", name).c_str(), ImGuiDataType_Double, values.data(),
-                            int(values.size()), float(speed), nullptr, nullptr, format);
+  if (!ImGui::DragScalarN(fmt::format("##{}", name).c_str(), ImGuiDataType_Double, &shown.x, 3,
+                          float(speed), nullptr, nullptr, format))
+    return false;
+  for (int i = 0; i < 3; ++i)
+    if (shown[i] != before[i]) values[i] = shown[i];
+  return true;
 }
 
 /// Returns whether the numbers changed.
 bool place_rows(Similarity& numbers, double radius) {
-  bool changed = numbers_row("Position", std::span(&numbers.position.x, 3), radius / 500,
-                             length_format(radius).c_str());
+  const int digits = length_digits(radius);
+  bool changed = numbers_row("Position", numbers.position, radius / 500,
+                             0.5 * std::pow(10, -digits), fmt::format("%.{}f", digits).c_str());
   tip("Position in world units (x, y, z). Drag, or double-click to type");
-  changed |= numbers_row("Rotation", std::span(&numbers.angles.x, 3), 0.5, "%.5g");
+  // Angles come from matrices, which round them.
+  changed |= numbers_row("Rotation", numbers.angles, 0.5, 1e-6, "%.5g");
   tip("Degrees about the world's axes through the layer's origin: x, then y, then z; "
       "counter-clockwise, seen from the positive end of the axis");
   field("Scale");

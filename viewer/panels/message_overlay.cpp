@@ -1,4 +1,5 @@
-// Notes and errors, stacked at the top of the image.
+// Notes and errors, stacked in the upper left corner of the image: what people look at is in the
+// middle.
 #include <algorithm>
 
 #include "viewer/panels.hpp"
@@ -9,11 +10,10 @@ namespace tureen::viewer {
 void message_overlay(State& state) {
   const std::vector<Message>& list = state.messages.list();
   if (list.empty()) return;
-  const Palette& colors = palette(state.settings.theme);
+  const Palette& colors = palette(state.theme);
   const float em = ImGui::GetFontSize();
-  // At the top in the middle of the image, as on the page.
-  const float width = std::min(32 * em, float(state.points.x) - em);
-  ImGui::SetNextWindowPos({0.5f * float(state.points.x), 0.6f * em}, ImGuiCond_Always, {0.5f, 0});
+  const float width = std::min(26 * em, float(state.points.x) - em);
+  ImGui::SetNextWindowPos({0.6f * em, 0.6f * em});
   ImGui::SetNextWindowSize({width, 0});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(card_padding(), card_padding()));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0f);

@@ -114,7 +114,7 @@ void draw_panels(State& state, const FrameClock& clock) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(padding, 0.5f * padding));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0f);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0f);
-  ImGui::PushStyleColor(ImGuiCol_WindowBg, color_of(palette(state.settings.theme).page));
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, color_of(palette(state.theme).page));
   ImGui::Begin("panels", nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);

@@ -111,6 +111,8 @@ void animation_rows(State& state) {
   field("Frames/s");
   if (ImGui::DragFloat("##frames/s", &rate, 0.1f, 1, 240, "%.0f", ImGuiSliderFlags_AlwaysClamp))
     animation.frames_per_second = rate;
+  const double count = frame_count(animation.path, animation.frames_per_second);
+  fact("Frames", fmt::format("{:.0f}", count));
   if (button("Write the animation")) state.ask(WriteAnimation{});
 }
 

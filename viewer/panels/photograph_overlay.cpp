@@ -56,7 +56,7 @@ void photograph_overlay(State& state) {
   const Photograph* photograph = state.photograph();
   if (!photograph) {
     tag("No photograph has this view: [ and ] select one", 0.5f * float(state.points.x), 0.5f,
-        state.settings.theme);
+        state.theme);
     return;
   }
   const ImVec2 window{float(state.points.x), float(state.points.y)};
@@ -83,8 +83,8 @@ void photograph_overlay(State& state) {
   list.PopClipRect();
   if (!split) return;
   list.AddLine({edge, 0}, {edge, window.y}, IM_COL32(255, 255, 255, 160), 1.5f);
-  tag("Photograph", edge - grip, 1, state.settings.theme);
-  tag("Scene", edge + grip, 0, state.settings.theme);
+  tag("Photograph", edge - grip, 1, state.theme);
+  tag("Scene", edge + grip, 0, state.theme);
 }
 
 }  // namespace tureen::viewer

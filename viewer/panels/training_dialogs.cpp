@@ -71,6 +71,7 @@ void method_fields(TrainingChoice& choice) {
   if (!ImGui::TreeNode("Options")) return;
   field("steps");
   ImGui::InputTextWithHint("##steps", "default", &choice.steps);
+  tip("number of steps, instead of minutes; by default that of the method");
   options(false);
   ImGui::TreePop();
 }

@@ -1,5 +1,7 @@
 #include "viewer/panels/widgets.hpp"
 
+#include <imgui/imgui_internal.h>
+
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
@@ -240,6 +242,8 @@ bool enter_pressed() {
 
 Dialog::Dialog(const char* title, bool open) {
   if (open && !ImGui::IsPopupOpen(title)) ImGui::OpenPopup(title);
+  // What lies behind is dim at once: the window draws no frames to fade it.
+  if (open) ImGui::GetCurrentContext()->DimBgRatio = 1;
   const ImVec2 window = ImGui::GetIO().DisplaySize;
   const float em = ImGui::GetFontSize();
   ImGui::SetNextWindowPos({0.5f * window.x, 0.45f * window.y}, ImGuiCond_Always, {0.5f, 0.5f});

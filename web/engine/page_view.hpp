@@ -76,8 +76,10 @@ class PageView {
   /// The numbers of its last place_layer() if they still give its place.
   Similarity placement(const DocumentLayer& layer) const;
 
-  void place_layer(LayerId layer, const Similarity& placement);
-  void place_layer(LayerId layer, const glm::dmat4& world_from_layer);
+  /// `visible`: default: as it is. Both are one step.
+  void place_layer(LayerId layer, const Similarity& placement, std::optional<bool> visible = {});
+  void place_layer(LayerId layer, const glm::dmat4& world_from_layer,
+                   std::optional<bool> visible = {});
   void show_layer(LayerId layer, bool visible);
   void move_layer(LayerId layer, std::size_t to);
   /// Not the only layer.

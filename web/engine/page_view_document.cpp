@@ -64,16 +64,22 @@ std::vector<LayerId> PageView::go_to(std::size_t position) {
   return {};
 }
 
-void PageView::place_layer(LayerId layer, const Similarity& placement) {
-  place_layer(layer, matrix_of(placement));
+void PageView::place_layer(LayerId layer, const Similarity& placement,
+                           std::optional<bool> visible) {
+  place_layer(layer, matrix_of(placement), visible);
   placements_[layer] = placement;
 }
 
-void PageView::place_layer(LayerId layer, const glm::dmat4& world_from_layer) {
+void PageView::place_layer(LayerId layer, const glm::dmat4& world_from_layer,
+                           std::optional<bool> visible) {
   const DocumentLayer& before = layer_with(layer);
   if (const auto reason = defect(Layer{.world_from_layer = world_from_layer}))
     throw UsageError("the layer cannot be placed: " + *reason);
-  if (before.world_from_layer != world_from_layer) perform(PlaceLayer{layer, world_from_layer});
+  if (visible == before.visible) visible.reset();
+  if (before.world_from_layer != world_from_layer)
+    perform(PlaceLayer{layer, world_from_layer, visible});
+  else if (visible)
+    perform(ShowLayer{layer, *visible});
 }
 
 void PageView::show_layer(LayerId layer, bool visible) {

@@ -117,12 +117,15 @@ Json steps(Engine& engine, const Json&) {
 void set_layer(Engine& engine, const Json& arguments) {
   PageView& view = engine.page();
   const LayerId layer = arguments.at("layer");
+  std::optional<bool> visible;
+  if (const auto given = arguments.find("visible"); given != arguments.end())
+    visible = given->get<bool>();
   if (const auto matrix = arguments.find("transform"); matrix != arguments.end())
-    view.place_layer(layer, matrix_of(*matrix));
-  if (const auto placement = arguments.find("placement"); placement != arguments.end())
-    view.place_layer(layer, placement_of(*placement));
-  if (const auto visible = arguments.find("visible"); visible != arguments.end())
-    view.show_layer(layer, visible->get<bool>());
+    view.place_layer(layer, matrix_of(*matrix), visible);
+  else if (const auto placement = arguments.find("placement"); placement != arguments.end())
+    view.place_layer(layer, placement_of(*placement), visible);
+  else if (visible)
+    view.show_layer(layer, *visible);
 }
 
 /// {"id"} of a layer that is read again, or {"name"} of a new one. The head and the blobs are those
