@@ -142,7 +142,7 @@ test('.ksplat, checkpoints and octagons have the images that their conversions h
     writeFileSync(file(name), readFileSync(join(data, name)));
   await each(context, ['ring.ksplat', 'triangle_splatting.pt', 'triangle_splatting_plus.pt', 'mesh_splatting.pt', 'octagons.npz'].map((name) => [name, async () => {
     convert(name, 'expected.glb');
-    const { low, high } = JSON.parse(execFileSync(join(programs, 'tureen'), ['info', file('expected.glb'), '--json'])).bounds;
+    const { low, high } = JSON.parse(execFileSync(join(programs, 'tureen'), ['info', file('expected.glb'), '--json'], { stdio: 'pipe' })).bounds;
     const target = low.map((value, axis) => (value + high[axis]) / 2), size = Math.hypot(...low.map((value, axis) => high[axis] - value));
     const view = { ...wanted, from: { ...from, eye: target.map((value, axis) => value + size * [0.3, -0.4, 1][axis]), target } };
     await load(folder, ['expected.glb']);
