@@ -7,11 +7,14 @@ Tureen reads. For development; needs Node 20, npm, and Debian's chromium-headles
     tests/judges.py [--tureen build/release/bin/tureen] [--scene tests/formats/data/splat_transform.ply]"""
 
 import argparse
+import atexit
+import dataclasses
 import json
 import math
 import os
 import queue
 import shutil
+import signal
 import struct
 import subprocess
 import sys
@@ -30,14 +33,30 @@ ONE_STEP = 20 * math.log10(255)  # PSNR of images that differ by one step everyw
 SH_0 = 0.28209479177387814  # the harmonic of degree 0
 
 
-class Judge:
-    """A reader in the browser, tests/judges/NAME.js, the formats that it reads, and the largest difference by quantity:
-    position relative to the scene, size by its logarithm. It turns no axes of `stored_axes`; what it holds is clamped."""
+def clamped(lowest, highest):
+    return lambda values: [min(max(value, lowest), highest) for value in values]
 
-    def __init__(self, name, formats, largest, stored_axes, colors=(-math.inf, math.inf), harmonics=(-math.inf, math.inf)):
-        self.name, self.formats, self.largest, self.stored_axes = name, formats, largest, stored_axes
-        self.held_color = lambda value: min(max(value, colors[0]), colors[1])
-        self.held_harmonic = lambda value: min(max(value, harmonics[0]), harmonics[1])
+
+def below_powers(values):
+    """Spark stores the channels of a coefficient in units of 2^n / 255, 2^n below the largest: it clamps them to 2^n."""
+    held = []
+    for triple in zip(*[iter(values)] * 3):
+        top = 2.0 ** math.floor(math.log2(max(max(map(abs, triple)), 2**-15)))
+        held += clamped(-top, top)(triple)
+    return held
+
+
+@dataclasses.dataclass
+class Judge:
+    """A reader in the browser, tests/judges/NAME.js."""
+    name: str
+    formats: list
+    largest: dict  # difference by quantity: of positions relative to the scene, of logarithms of sizes
+    colors: object  # what it holds of three colours
+    harmonics: object  # what it holds of harmonics
+    known: dict  # largest difference by (format, quantity), or None, where its reader differs
+    # It keeps the axes of SPZ, where Tureen turns them to those of PLY.
+    stored_axes = ['.3.spz', '.spz']
 
 
 BROWSERS = [
@@ -45,12 +64,21 @@ BROWSERS = [
     # rounded by 1 / 255 a part, and again as far as the others' rounding changes their length, by up to twice that.
     Judge('babylon', ['.ply', '.compressed.ply', '.splat', '.3.spz', '.spz', '.sog'],
           {'position': 1e-6, 'size': 1e-5, 'rotation': 3 / 255, 'opacity': 1 / 255, 'colour': 1 / 255, 'harmonics': 2 / 255},
-          stored_axes=['.3.spz', '.spz'], colors=(0, 1), harmonics=(-1, 1)),
-    # Halves: 11 bits of a value, so 2^-11 of colours below 2 and of opacities, 2^-8 of logarithms below 16. Directions
-    # of the axis in 10 + 10 bits, the angle in 12. Harmonics: 8 bits of the largest channel.
-    Judge('spark', ['.ply', '.compressed.ply', '.splat', '.3.spz', '.spz', '.sog', '.ksplat'],
-          {'position': 1e-6, 'size': 2**-8, 'rotation': 2**-8, 'opacity': 2**-11, 'colour': 2**-10, 'harmonics': 2**-7},
-          stored_axes=['.3.spz', '.spz']),
+          clamped(0, 1), clamped(-1, 1),
+          # A canvas multiplies bytes by alpha, and divides them again: indices of colours become others, and bytes of
+          # rotations differ by a step, sqrt(2) / 255 a part and up to three times that in the largest.
+          {('.compressed.ply', 'harmonics'): 1 / 64 + 2 / 255,  # bytes are 8 / 255 apart, not the middle of 8 / 256
+           ('.sog', 'colour'): None, ('.sog', 'rotation'): 3 * math.sqrt(2) / 255 + 3 / 255}),
+    # Truncated halves: 2^-11 of opacities, 2^-10 of colours below 2, 2^-7 of logarithms below 16. Directions
+    # of the axis in 10 + 10 bits, the angle in 12. Harmonics: 8 bits below 2^n.
+    Judge('spark', ['.ply', '.compressed.ply', '.splat', '.3.spz', '.sog', '.ksplat'],  # no SPZ 4
+          {'position': 1e-6, 'size': 2**-7, 'rotation': 2**-8, 'opacity': 2**-11, 'colour': 2**-10, 'harmonics': 2**-8},
+          list, below_powers,
+          # It does not normalise rotations, whose first part is the cosine of half the angle: bytes as (b - 128) / 128,
+          # up to 127 / 128, turn by 1 / 8 where nothing turns, halves below 1 by 2^-5.
+          {('.splat', 'rotation'): 1 / 8, ('.ksplat', 'rotation'): 2**-5,
+           # Bytes are 8 / 255 apart, where splat-transform and Tureen take the middle of steps of 8 / 256.
+           ('.compressed.ply', 'harmonics'): 1 / 64 + 2**-8}),
 ]
 
 parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -155,10 +183,10 @@ def differences(judge, ours, theirs, degree):
             'size': max(abs(math.log(max(p, 1e-30) / max(q, 1e-30))) for p, q in zip(a[3:6], b[3:6])),
             'rotation': turn_between(a[6:10], b[6:10]),
             'opacity': abs(a[10] - b[10]),
-            'colour': max(abs(judge.held_color(p) - q) for p, q in zip(a[11:14], b[11:14])),
+            'colour': max(abs(p - q) for p, q in zip(judge.colors(a[11:14]), b[11:14])),
         }
         if degree:
-            own['harmonics'] = max(abs(judge.held_harmonic(p) - q) for p, q in zip(a[14:], b[14:]))
+            own['harmonics'] = max(abs(p - q) for p, q in zip(judge.harmonics(a[14:]), b[14:]))
         for name, value in own.items():
             found[name] = max(found[name], value)
     return found
@@ -241,7 +269,8 @@ writeFileSync('ours.ksplat', new Uint8Array(splats.bufferData));
     browser = subprocess.Popen([program, '--headless', '--no-sandbox', '--disable-gpu', '--remote-debugging-port=0',
                                 f'--user-data-dir={folder}/browser',
                                 f'http://127.0.0.1:{server.server_port}/judges/judge.html'],
-                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
+    atexit.register(os.killpg, browser.pid, signal.SIGTERM)  # Debian's program is a script, whose child is the browser
 
     def in_browser(judge, file):
         """What the judge reads, or the error as text."""
@@ -249,11 +278,10 @@ writeFileSync('ours.ksplat', new Uint8Array(splats.bufferData));
         try:
             degree, body = results.get(timeout=120)
         except queue.Empty:
-            browser.terminate()
             sys.exit(f'{judge.name} {file}: no result within 120 s')
         return body.decode() if degree is None else (int(degree), array('f', body))
 
-    for extension in BROWSERS[-1].formats:
+    for extension in sorted({extension for judge in BROWSERS for extension in judge.formats}):
         file = folder / ('ours' + extension)
         if not file.exists():
             version = ['--spz-version', '3'] if extension == '.3.spz' else []
@@ -276,10 +304,9 @@ writeFileSync('ours.ksplat', new Uint8Array(splats.bufferData));
                 report(False, f'{what}: degree {found[0]} and {len(found[1])} values, instead of {degree} and {len(ours)}')
                 continue
             largest = differences(judge, ours, found[1], degree)
-            bad = [name for name, value in largest.items() if not value <= judge.largest[name]]
+            limits = {name: judge.known.get((extension, name), judge.largest[name]) for name in largest}
+            bad = [name for name, value in largest.items() if limits[name] is not None and not value <= limits[name]]
             report(not bad, f'{what}: ' + ', '.join(f'{name} {value:.2g}' for name, value in largest.items())
                    + (f' (too large: {", ".join(bad)})' if bad else ''))
-    browser.terminate()
-    browser.wait()
 
 sys.exit(1 if wrong else 0)
