@@ -5,6 +5,7 @@
 #include "formats/common/format_remarks.hpp"
 #include "formats/glb/glb_container.hpp"
 #include "formats/gltf/gltf.hpp"
+#include "formats/gltf/gltf_meshopt.hpp"
 #include "formats/splat/spz.hpp"
 #include "formats/tureen_glb/tureen_glb.hpp"
 
@@ -12,11 +13,11 @@ namespace tureen {
 
 namespace {
 
-// A page has neither zlib nor zstd.
+// A page lacks the libraries: zlib, zstd, meshoptimizer.
 #ifdef __EMSCRIPTEN__
-constexpr ReadSpz spz_in_gltf = nullptr;
+constexpr GltfDecoders decoders;
 #else
-constexpr ReadSpz spz_in_gltf = read_spz;
+constexpr GltfDecoders decoders{.spz = read_spz, .meshopt = decode_meshopt};
 #endif
 
 }  // namespace
@@ -33,7 +34,7 @@ Scene read_gltf_or_glb(Input& input, const std::filesystem::path& folder,
   const bool ours = is_tureen_glb(glb);
   if (binary && ours) return read_tureen_glb(input, glb, options);
   const bool is_aligned = glb.is_aligned;
-  Scene scene = read_gltf(input, std::move(glb), folder, options, spz_in_gltf);
+  Scene scene = read_gltf(input, std::move(glb), folder, options, decoders);
   if (!is_aligned) scene.info.remarks.push_back({&remarks::chunks_unaligned});
   if (ours)
     scene.info.remarks.push_back({&remarks::mean_colors_shown, {{"extension", tureen_extension}}});

@@ -353,9 +353,9 @@ GlbContainer read_gltf_json(Input& input) {
 }
 
 Scene read_gltf(Input& input, GlbContainer glb, const std::filesystem::path& folder,
-                const ReadOptions& options, ReadSpz read_spz) {
-  GltfDocument document(input, std::move(glb), folder, read_spz != nullptr);
-  Scene scene = Importer(document, options, read_spz).scene();
+                const ReadOptions& options, const GltfDecoders& decoders) {
+  GltfDocument document(input, std::move(glb), folder, decoders);
+  Scene scene = Importer(document, options, decoders.spz).scene();
   scene.info.name = std::filesystem::path(input.name()).stem().string();
   return scene;
 }

@@ -7,7 +7,8 @@
 // KHR_materials_unlit, since a trained soup has its light baked in. Mirrors and glass are layers of
 // their own, for rays.
 // Gaussian splats (KHR_gaussian_splatting) become a layer for each primitive of a node:
-// formats/gltf/gltf_splats.hpp. They may be SPZ files.
+// formats/gltf/gltf_splats.hpp. They may be SPZ files. Buffer views may be compressed by
+// EXT_meshopt_compression.
 // Not supported: lines and other points, animation, skins, morph targets, lights, emission, normal
 // maps, mip levels. A remark reports them if they matter. BLEND is drawn as MASK with a cutoff of
 // 0.5. A file that requires an unsupported extension is rejected with the extension's name.
@@ -19,8 +20,10 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <vector>
 
 #include "base/input.hpp"
+#include "base/json/json_view.hpp"
 #include "formats/read_options.hpp"
 #include "scene/scene.hpp"
 
@@ -30,6 +33,15 @@ struct GlbContainer;
 
 /// Reads an SPZ file (formats/splat/spz.hpp).
 using ReadSpz = Scene (*)(Input&, const ReadOptions&);
+/// Decompresses a buffer view (formats/gltf/gltf_meshopt.hpp).
+using DecodeMeshopt = std::vector<std::byte> (*)(const JsonView& extension,
+                                                 std::span<const std::byte> stored, MemoryBudget);
+
+/// What decodes compressed content. Null: not supported; a file that requires it is rejected.
+struct GltfDecoders {
+  ReadSpz spz = nullptr;
+  DecodeMeshopt meshopt = nullptr;
+};
 
 /// Whether a file with these first bytes may be glTF: the magic of a GLB, or a JSON object with an
 /// early "asset".
@@ -42,9 +54,8 @@ GlbContainer read_gltf_json(Input& input);
 /// others one soup, the first layer; a file without others has no such layer. A soup has
 /// VertexColors if none of its materials has a texture, otherwise UvTextures. Files that the
 /// document names lie in `folder`. Throws InputError; its reason begins with the place in the JSON,
-/// as in "accessors[3]: ..". `read_spz`: null where SPZ files are not supported; files with
-/// KHR_gaussian_splatting_compression_spz_2 are then rejected.
+/// as in "accessors[3]: ..".
 Scene read_gltf(Input& input, GlbContainer glb, const std::filesystem::path& folder,
-                const ReadOptions& options, ReadSpz read_spz = nullptr);
+                const ReadOptions& options, const GltfDecoders& decoders = {});
 
 }  // namespace tureen

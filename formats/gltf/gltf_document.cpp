@@ -25,21 +25,25 @@ constexpr std::array known_extensions = {"KHR_gaussian_splatting",     "KHR_mate
 /// Splats in an SPZ file: the extension, and the name that its draft and older writers also use.
 constexpr std::string_view spz_prefix = "KHR_gaussian_splatting_compression_spz";
 
+/// Compressed buffer views.
+constexpr std::string_view meshopt_extension = "EXT_meshopt_compression";
+
 /// A hint for a file that requires an extension that is not supported; "" without one.
 std::string way_out(const std::string& extension) {
   if (extension.starts_with(spz_prefix))
     return "its splats are an SPZ file; tureen convert IN.glb OUT.glb converts it";
-  if (extension == "KHR_draco_mesh_compression" || extension == "EXT_meshopt_compression")
+  if (extension == "KHR_draco_mesh_compression" || extension == meshopt_extension)
     return "gltf-transform copy IN.glb OUT.glb decompresses it";
   if (extension == "KHR_texture_basisu")
     return "gltf-transform ktxdecompress IN.glb OUT.glb decompresses it";
   return {};
 }
 
-bool is_applied(const std::string& extension) {
+bool is_applied(const std::string& extension, const GltfDecoders& decoders) {
   return std::find(known_extensions.begin(), known_extensions.end(), extension) !=
              known_extensions.end() ||
-         extension.starts_with(spz_prefix);
+         (decoders.spz && extension.starts_with(spz_prefix)) ||
+         (decoders.meshopt && extension == meshopt_extension);
 }
 
 /// tinygltf's messages as one line without a full stop.
@@ -89,8 +93,8 @@ std::uint64_t count_values(const nlohmann::json& value) {
 }  // namespace
 
 GltfDocument::GltfDocument(Input& input, GlbContainer glb, std::filesystem::path folder,
-                           bool has_spz)
-    : input_(input), glb_(std::move(glb)), folder_(std::move(folder)) {
+                           const GltfDecoders& decoders)
+    : input_(input), glb_(std::move(glb)), folder_(std::move(folder)), decoders_(decoders) {
   const JsonView root(glb_.json, input_.name());
   const JsonView asset = root["asset"];
   const auto minimum = asset.find("minVersion");
@@ -100,10 +104,13 @@ GltfDocument::GltfDocument(Input& input, GlbContainer glb, std::filesystem::path
   if (const auto required = root.find("extensionsRequired"))
     for (std::size_t i = 0; i < required->size(); ++i) {
       const std::string& name = required->at(i).text();
-      if (!is_applied(name) || (!has_spz && name.starts_with(spz_prefix)))
+      if (!is_applied(name, decoders_))
         required->at(i).fail("the file requires the extension " + name + ", which is not supported",
                              way_out(name));
     }
+  if (const auto used = root.find("extensionsUsed"))
+    for (std::size_t i = 0; i < used->size(); ++i)
+      has_meshopt_ |= decoders_.meshopt && used->at(i).text() == meshopt_extension;
   if (const auto list = root.find("buffers")) buffers_.resize(list->size());
   parse();
 }
@@ -115,7 +122,7 @@ std::vector<std::string> GltfDocument::dropped_extensions() const {
   for (std::size_t i = 0; used && i < used->size() && names.size() < most; ++i) {
     const std::string& name = used->at(i).text();
     // Another remark names ours.
-    if (!is_applied(name) && !name.starts_with("TUREEN_")) names.push_back(name);
+    if (!is_applied(name, decoders_) && !name.starts_with("TUREEN_")) names.push_back(name);
   }
   return names;
 }
@@ -242,13 +249,40 @@ std::span<const std::byte> GltfDocument::view_bytes(int view, const std::string&
     fail(where, "names buffer view " + std::to_string(view) + " of " +
                     std::to_string(model_.bufferViews.size()));
   const std::string name = "bufferViews[" + std::to_string(view) + "]";
+  if (has_meshopt_)
+    if (const auto extensions = root()["bufferViews"].at(std::size_t(view)).find("extensions"))
+      if (const auto extension = extensions->find(meshopt_extension.data()))
+        return decoded_view(view, *extension);
   const tinygltf::BufferView& json = model_.bufferViews[std::size_t(view)];
-  const auto bytes = buffer(json.buffer, name);
-  if (json.byteOffset > bytes.size() || json.byteLength > bytes.size() - json.byteOffset)
-    fail(name, "bytes " + std::to_string(json.byteOffset) + " + " +
-                   std::to_string(json.byteLength) + " reach past the end of its buffer at " +
-                   std::to_string(bytes.size()));
-  return bytes.subspan(json.byteOffset, json.byteLength);
+  return buffer_bytes(json.buffer, json.byteOffset, json.byteLength, name);
+}
+
+std::span<const std::byte> GltfDocument::buffer_bytes(int index, std::uint64_t offset,
+                                                      std::uint64_t size,
+                                                      const std::string& where) {
+  const auto bytes = buffer(index, where);
+  if (offset > bytes.size() || size > bytes.size() - offset)
+    fail(where, "bytes " + std::to_string(offset) + " + " + std::to_string(size) +
+                    " reach past the end of its buffer at " + std::to_string(bytes.size()));
+  return bytes.subspan(std::size_t(offset), std::size_t(size));
+}
+
+/// The bytes of a compressed view. The sizes that glTF states twice must agree.
+std::span<const std::byte> GltfDocument::decoded_view(int view, const JsonView& extension) {
+  if (const auto found = decoded_views_.find(view); found != decoded_views_.end())
+    return found->second;
+  const auto offset = extension.find("byteOffset");
+  const auto stored = buffer_bytes(
+      int(extension["buffer"].natural(std::numeric_limits<int>::max())),
+      offset ? offset->natural() : 0, extension["byteLength"].natural(), extension.path());
+  const tinygltf::BufferView& json = model_.bufferViews[std::size_t(view)];
+  const std::uint64_t stride = extension["byteStride"].natural();
+  if ((json.byteStride != 0 && json.byteStride != stride) || stride == 0 ||
+      json.byteLength / stride != extension["count"].natural() || json.byteLength % stride != 0)
+    extension.fail("its count and byteStride differ from those of its view");
+  std::vector<std::byte> bytes = decoders_.meshopt(extension, stored, input_.budget());
+  loaded_bytes_ += bytes.size();
+  return decoded_views_[view] = std::move(bytes);
 }
 
 GltfDocument::Elements GltfDocument::elements(int view, std::uint64_t offset, std::uint64_t count,

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,6 +16,7 @@
 #include "base/input.hpp"
 #include "base/json/json_view.hpp"
 #include "formats/glb/glb_container.hpp"
+#include "formats/gltf/gltf.hpp"
 #include "formats/gltf/tinygltf.hpp"
 #include "image/image.hpp"
 
@@ -23,9 +25,9 @@ namespace tureen {
 class GltfDocument {
  public:
   /// `glb` is the container in `input`, or the JSON of a whole .gltf. Throws InputError if it is
-  /// not glTF 2.0 or requires an unsupported extension. `has_spz`: whether splats in SPZ files are
-  /// supported. The input must outlive this object.
-  GltfDocument(Input& input, GlbContainer glb, std::filesystem::path folder, bool has_spz);
+  /// not glTF 2.0 or requires an unsupported extension. The input must outlive this object.
+  GltfDocument(Input& input, GlbContainer glb, std::filesystem::path folder,
+               const GltfDecoders& decoders);
 
   const tinygltf::Model& model() const { return model_; }
   const std::string& name() const { return input_.name(); }
@@ -43,7 +45,7 @@ class GltfDocument {
 
   Image8 image(int index);
 
-  /// The bytes of a buffer view; they live as long as this object.
+  /// The bytes of a buffer view, decompressed; they live as long as this object.
   std::span<const std::byte> view_bytes(int view, const std::string& where);
 
   /// Extensions that the file uses and that are not applied; at most 8.
@@ -71,6 +73,9 @@ class GltfDocument {
 
  private:
   std::span<const std::byte> buffer(int index, const std::string& where);
+  std::span<const std::byte> buffer_bytes(int buffer, std::uint64_t offset, std::uint64_t size,
+                                          const std::string& where);
+  std::span<const std::byte> decoded_view(int view, const JsonView& extension);
   std::vector<std::byte> load_buffer(std::size_t index, std::uint64_t size);
   std::vector<std::byte> load_uri(const JsonView& uri, std::optional<std::uint64_t> size);
   void take_model_memory() const;
@@ -80,8 +85,11 @@ class GltfDocument {
   GlbContainer glb_;
   std::filesystem::path folder_;
   tinygltf::Model model_;
+  GltfDecoders decoders_;
+  bool has_meshopt_ = false;
   std::vector<std::optional<std::vector<std::byte>>> buffers_;
-  std::uint64_t loaded_bytes_ = 0;
+  std::map<int, std::vector<std::byte>> decoded_views_;  // by buffer view
+  std::uint64_t loaded_bytes_ = 0;                       // decompressed
 };
 
 }  // namespace tureen

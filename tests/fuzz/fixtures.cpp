@@ -522,6 +522,8 @@ std::vector<Fixture> made_fixtures() {
   all.add("gltf", "foreign.gltf", foreign_gltf());
   all.add("gltf", "surfaces.gltf", foreign_surfaces());
   all.add("gltf", "spz.glb", spz_in_gltf());
+  all.add("gltf", "meshopt.glb",
+          Input::open(TUREEN_SOURCE_DIR "/tests/formats/data/gltfpack.glb").read_rest());
   add_text_meshes(all);
   add_splats(all);
   add_torch(all);
@@ -534,6 +536,12 @@ std::vector<Fixture> made_fixtures() {
     std::string name = sog[i].first;  // "0_0/meta.json"
     std::replace(name.begin(), name.end(), '/', '_');
     all.add("sog_folder", name, with_first_byte(i, sog[i].second));
+  }
+  for (std::size_t i = 0, json = 0; i < sog.size(); ++i) {
+    if (!sog[i].first.ends_with(".json")) continue;
+    Content bytes{std::byte(json++), std::byte(1)};
+    bytes.insert(bytes.end(), sog[i].second.begin(), sog[i].second.end());
+    all.add("sog_needs", std::to_string(json) + ".json", std::move(bytes));
   }
   for (std::size_t i = 0; i < diffsoup.size(); ++i)
     all.add("diffsoup", diffsoup[i].first, with_first_byte(i, diffsoup[i].second));

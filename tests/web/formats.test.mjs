@@ -121,6 +121,38 @@ test('each format has the image that its conversion by the program has', (contex
   });
 }));
 
+/** A .ksplat of level 0 and degree 0: a header, a section without buckets, and single numbers. */
+function ksplat(count) {
+  const bytes = Buffer.alloc(4096 + 1024 + 44 * count), at = (i, k) => 4096 + 1024 + 44 * i + 4 * k;
+  bytes[1] = 1;  // version 0.1
+  for (const place of [4, 8]) bytes.writeUInt32LE(1, place);  // sections
+  for (const place of [12, 16, 4096, 4100]) bytes.writeUInt32LE(count, place);  // splats, also of the section
+  for (let i = 0; i < count; ++i) {
+    const turn = 0.7 * i, place = [Math.sin(turn), Math.cos(turn), i / count - 0.5], size = [0.2, 0.1, 0.05];
+    [...place, ...size, Math.cos(turn), Math.sin(turn), 0, 0].forEach((value, k) => bytes.writeFloatLE(value, at(i, k)));
+    [20 * i % 256, 255 - 7 * i % 256, 128, 200].forEach((value, k) => bytes.writeUInt8(value, at(i, 10) + k));
+  }
+  return bytes;
+}
+
+test('.ksplat, checkpoints and octagons have the images that their conversions have', (context) => visit('drawing.html', async (page) => {
+  const { load, image } = await drawingPage(page), data = join(source, 'tests/formats/data');
+  writeFileSync(file('ring.ksplat'), ksplat(40));
+  for (const name of ['triangle_splatting.pt', 'triangle_splatting_plus.pt', 'mesh_splatting.pt', 'octagons.npz'])
+    writeFileSync(file(name), readFileSync(join(data, name)));
+  await each(context, ['ring.ksplat', 'triangle_splatting.pt', 'triangle_splatting_plus.pt', 'mesh_splatting.pt', 'octagons.npz'].map((name) => [name, async () => {
+    convert(name, 'expected.glb');
+    const { low, high } = JSON.parse(execFileSync(join(programs, 'tureen'), ['info', file('expected.glb'), '--json'], { stdio: 'pipe' })).bounds;
+    const target = low.map((value, axis) => (value + high[axis]) / 2), size = Math.hypot(...low.map((value, axis) => high[axis] - value));
+    const view = { ...wanted, from: { ...from, eye: target.map((value, axis) => value + size * [0.3, -0.4, 1][axis]), target } };
+    await load(folder, ['expected.glb']);
+    const expected = await image(view);
+    assert.ok(new Set(expected.pixels).size > 10, 'something is drawn');
+    await load(folder, [name]);
+    assert.deepEqual(await image(view), expected);
+  }]));
+}));
+
 /** A module of web/viewer. */
 async function viewerModule(name) {
   const { build } = await import(pathToFileURL(join(source, 'web/node_modules/esbuild/lib/main.js')).href);
@@ -196,6 +228,9 @@ test('a streamed SOG by its address, and another level', () => visit('?scene=str
   await page.waitForFunction(() => document.getElementById('facts').textContent.includes('300 splats'));
   await still(page);
   assert.equal(await page.evaluate(() => location.hash), before, 'the view stays');
+  await page.reload();
+  await sceneShown(page, 'streamed');
+  assert.match(await page.textContent('#facts'), /300 splats/, 'the link has the level');
 }));
 
 test('damaged files have the program’s errors', (context) => visit('', async (page) => {

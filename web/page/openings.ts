@@ -16,6 +16,17 @@ export type Origin =
   /** The scene is part of the page. */
   | { readonly kind: 'page' };
 
+/** The level of detail that an address may end in: streamed/lod-meta.json#lod=2. */
+const levelPart = /#lod=(\d{1,3})$/;
+
+const sourceAt = (address: string): SceneSource => {
+  const lod = levelPart.exec(address)?.[1], url = urlOf({ url: address.replace(levelPart, '') });
+  return lod === undefined ? { url } : { url, lod: Number(lod) };
+};
+
+const atLevel = (origin: Origin, lod: number): Origin =>
+  origin.kind === 'address' ? { ...origin, address: `${origin.address.replace(levelPart, '')}#lod=${lod}` } : origin;
+
 const noView: LinkedView = { pose: null, named: null, debugView: null, layers: null, defect: null };
 
 /** A scene that was opened or added. */
@@ -87,7 +98,7 @@ export class Openings {
     const scenes: { source: SceneSource; origin: Origin }[] = [];
     try {
       for (const address of addresses)
-        scenes.push({ source: { url: urlOf({ url: address }) }, origin: { kind: 'address', address } });
+        scenes.push({ source: sourceAt(address), origin: { kind: 'address', address } });
     } catch (error) {
       this.messages.thrown(error);
       return false;
@@ -106,7 +117,7 @@ export class Openings {
   /** Opens the first scene again at another level of detail, and alone, from the same view. */
   openLevel(lod: number): Promise<boolean> {
     const first = this.viewer.layers[0]!.source, { origin } = this.opened.get(first)!, pose = this.viewer.getView();
-    return this.open([{ source: { ...first, lod }, origin }], { ...noView, pose });
+    return this.open([{ source: { ...first, lod }, origin: atLevel(origin, lod) }], { ...noView, pose });
   }
 
   openPart(source: SceneSource, view: LinkedView): Promise<boolean> {
@@ -178,7 +189,7 @@ export class Openings {
     forget();
     if (!scene) return false;
     this.origin_ = first.origin;
-    this.key = first.origin.kind === 'address' ? first.origin.address : `${scene.name}:${scene.triangles}`;
+    this.key = first.origin.kind === 'address' ? first.origin.address.replace(levelPart, '') : `${scene.name}:${scene.triangles}`;
     this.incomplete = false;
     this.opened.clear();
     this.opened.set(first.source, { origin: first.origin, layers: this.viewer.layers });
