@@ -1,6 +1,7 @@
 #include "base/output_path.hpp"
 
 #include <atomic>
+#include <chrono>
 #include <cstdio>
 #include <map>
 #include <mutex>
@@ -85,10 +86,18 @@ void remove_leftovers(const fs::path& path) {
   const std::string own = path.filename().string() + temporary_mark;
   const fs::path folder = path.parent_path();
   std::error_code ignored;
-  for (const fs::path& left : leftovers_in(folder.empty() ? "." : folder))
-    if (const std::string name = left.filename().string();
-        name.starts_with(own) && name.find(temporary_mark, own.size()) == std::string::npos)
+  // Without a file at `path`, the temporary one may be all that is left of it.
+  if (!fs::exists(path, ignored)) return;
+  for (const fs::path& left : leftovers_in(folder.empty() ? "." : folder)) {
+    const std::string name = left.filename().string();
+    if (!name.starts_with(own) || name.find(temporary_mark, own.size()) != std::string::npos)
+      continue;
+    // A computer that shares the folder may be writing it: its processes are unknown here.
+    const auto written = fs::last_write_time(left, ignored);
+    if (!ignored && fs::file_time_type::clock::now() - written > std::chrono::hours(1) &&
+        !is_process(process_of(name).value_or(0)))
       fs::remove_all(left, ignored);
+  }
 }
 
 #else

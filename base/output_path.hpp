@@ -20,8 +20,9 @@ std::filesystem::path writable_file(const std::filesystem::path& path);
 std::filesystem::path writable_folder(const std::filesystem::path& path);
 
 /// A unique name beside `path`, also across processes. The complete output is renamed from it to
-/// `path`. Removes what killed processes left under such names of `path`: those that were there
-/// when this process first wrote to the folder.
+/// `path`. If there is a file or folder at `path`, removes what killed processes left under its
+/// temporary names more than an hour ago: those that were there when this process first wrote to
+/// the folder.
 std::filesystem::path temporary_beside(const std::filesystem::path& path);
 
 }  // namespace tureen

@@ -356,7 +356,7 @@ ExitCode train(TrainOptions options) {
 
   say_list("Reading " + options.dataset.path + ":", notes_of(dataset.remarks));
   TrainingOutcome result = run.train(dataset, start ? &*start : nullptr, events);
-  if (full)
+  if (full && result.training.run.seconds >= 0.9 * 60 * run.method().minutes())  // not ended early
     if (auto warning = too_few_steps(result.training.steps, *full, *job.training.method))
       result.training.own.push_back(*warning);
   progress.reset();

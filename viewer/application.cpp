@@ -267,9 +267,13 @@ void Application::frame() {
   }
   state_.busy = worker_.status();
   state_.writing = writer_.status();
-  if (quits_when_written_ && writer_.idle()) {
-    quits_when_written_ = false;
-    if (!state_.has_dialog()) state_.ask(Quit{});  // what was written may need an answer
+  if (quit_when_written_ && writer_.idle()) {
+    // A dialog about what was written, or an error, needs the window.
+    const bool failed = std::ranges::any_of(state_.messages.list(), [&](const Message& message) {
+      return message.kind == Message::Kind::error && message.since >= quit_asked_;
+    });
+    if (!state_.has_dialog() && !failed) state_.ask(*quit_when_written_);
+    quit_when_written_.reset();
   }
   const bool was_searching = state_.searching.has_value();
   state_.searching = searcher_.status();

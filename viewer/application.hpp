@@ -255,8 +255,9 @@ class Application {
   bool drawn_smooth_ = false;  // whether the image may have become the image at rest
   DebugViewChoice drawn_debug_view_;
   bool quit_ = false, vsync_ = false;
-  bool quits_when_written_ = false;  // the user wants to close the window
-  std::shared_ptr<Rays> rays_;       // kept while State::trace
+  std::optional<Quit> quit_when_written_;  // the user wants to close the window, at this time
+  double quit_asked_ = 0;
+  std::shared_ptr<Rays> rays_;  // kept while State::trace
   std::shared_ptr<tracing::ProgressiveImage> traced_image_;
   Worker worker_, writer_, tracer_, searcher_;  // last: their jobs may use all of the above
 };

@@ -120,6 +120,7 @@ void Application::write(const fs::path& path, std::function<void(const StageRequ
 
 void Application::carry_out(const StopWriting&) {
   writer_.abandon(JobKind::writing);
+  quit_when_written_.reset();
   state_.note("Cancelled.");
 }
 

@@ -189,8 +189,12 @@ void Application::carry_out(const ToggleFullscreen&) {
 }
 
 void Application::carry_out(const Quit& request) {
-  if (!request.discards && !writer_.idle() && !std::exchange(quits_when_written_, true))
+  if (!request.discards && !writer_.idle() && !quit_when_written_) {
+    quit_when_written_ = request;
+    quit_asked_ = state_.now;
     return state_.note("The window closes when all files are written. Quit again to stop that.");
+  }
+  quit_when_written_.reset();
   if (!request.discards && asks_before({})) return;
   state_.asks_before_quitting = request.training == Quit::Training::ask && training_program_;
   if (state_.asks_before_quitting) return;

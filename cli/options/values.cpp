@@ -76,7 +76,12 @@ glm::dvec3 parse_direction(const std::string& text) {
 }
 
 glm::vec4 parse_background(const std::string& text) {
-  return text == "transparent" ? glm::vec4(0) : glm::vec4(parse_color(text), 1);
+  if (text == "transparent") return glm::vec4(0);
+  try {
+    return {parse_color(text), 1};
+  } catch (const UsageError& error) {
+    throw UsageError(error.reason(), "write transparent, white, #ff8000, or 0.2,0.4,1");
+  }
 }
 
 int parse_integer(const std::string& text, int low, int high) {

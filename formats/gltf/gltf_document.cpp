@@ -281,7 +281,6 @@ std::span<const std::byte> GltfDocument::decoded_view(int view, const JsonView& 
       json.byteLength / stride != extension["count"].natural() || json.byteLength % stride != 0)
     extension.fail("its count and byteStride differ from those of its view");
   std::vector<std::byte> bytes = decoders_.meshopt(extension, stored, input_.budget());
-  loaded_bytes_ += bytes.size();
   return decoded_views_[view] = std::move(bytes);
 }
 

@@ -89,7 +89,7 @@ class GltfDocument {
   bool has_meshopt_ = false;
   std::vector<std::optional<std::vector<std::byte>>> buffers_;
   std::map<int, std::vector<std::byte>> decoded_views_;  // by buffer view
-  std::uint64_t loaded_bytes_ = 0;                       // decompressed
+  std::uint64_t loaded_bytes_ = 0;                       // of buffers
 };
 
 }  // namespace tureen

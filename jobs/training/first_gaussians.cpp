@@ -91,8 +91,10 @@ Scene train_first_gaussians(const Dataset& dataset, const FirstGaussians& first,
   }
   trainer::GaussianTrainer trainer(
       first.constants, views, {.center = glm::dvec3(0), .half_side = region.half_side}, threads,
-      trainer::first_splats<trainer::GaussianTraining>(dataset, first.constants, region, nullptr,
-                                                       {.threads = threads}));
+      trainer::first_splats<trainer::GaussianTraining>(
+          dataset, first.constants, region, nullptr, {.threads = threads, .progress = [&](double) {
+                                                        if (progress) progress(0);
+                                                      }}));
   double spent = 0, work = 0;  // work: in steps of full size with one splat
   while (!trainer.done()) {
     if (progress) progress(double(trainer.steps_done()) / trainer.config().steps);

@@ -56,6 +56,8 @@ std::optional<glm::vec3> hexadecimal(const std::string& digits) {
 
 glm::vec3 parse_color(const std::string& text) {
   std::string name = text;
+  for (char& letter : name)
+    if (letter >= 'A' && letter <= 'Z') letter += 'a' - 'A';
   if (const std::size_t at = name.find("grey"); at != std::string::npos) name[at + 2] = 'a';
   std::vector<std::string> known;
   std::istringstream table(named_colors);

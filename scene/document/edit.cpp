@@ -157,7 +157,7 @@ bool sets_the_same(const Edit& first, const Edit& second) {
   if (const auto* place = std::get_if<PlaceLayer>(&first)) {
     const auto& next = std::get<PlaceLayer>(second);
     // What undoes the first must also undo a change of the visibility.
-    return place->id == next.id && place->visible.has_value() == next.visible.has_value();
+    return place->id == next.id && (place->visible || !next.visible);
   }
   if (const auto* name = std::get_if<RenameLayer>(&first))
     return name->id == std::get<RenameLayer>(second).id;

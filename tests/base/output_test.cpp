@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -46,11 +47,18 @@ TEST_F(OutputFile, RemovesWhatKilledProcessesLeft) {
         std::string("scene.glb.tmp999999999"), std::string("scene.glb.tmp999999999-0.old"),
         std::string("scene.glb.tmp999999999-0.tmp999999999-0")})
     std::ofstream(folder / kept) << "x";
+  std::ofstream(file) << "old";
   std::ofstream(folder / "scene.glb.tmp999999999-0") << "x";
   fs::create_directories(folder / "scene.glb.tmp999999998-12/images");
+  const auto age = [&](const char* name) {
+    fs::last_write_time(folder / name, fs::file_time_type::clock::now() - std::chrono::hours(2));
+  };
+  age("scene.glb.tmp999999999-0");
+  age("scene.glb.tmp999999998-12");
+  std::ofstream(folder / "scene.glb.tmp999999997-0") << "young: perhaps of another computer";
   write_file(file, "new");
   EXPECT_EQ(content(), "new");
-  EXPECT_EQ(names(), 6);
+  EXPECT_EQ(names(), 7);
   EXPECT_FALSE(fs::exists(folder / "scene.glb.tmp999999999-0"));
   EXPECT_FALSE(fs::exists(folder / "scene.glb.tmp999999998-12"));
 }

@@ -126,9 +126,9 @@ TEST(Processes, EndWithTheThreadThatStartsThem) {
 TEST(Processes, EndWithTheirObject) {
   const File output = temporary_file();
   {
-    const Process sleeper("sh", {"-c", "echo $$; exec sleep 600"},
-                          {.output = output.get(), .ends_with_us = true});
-    while (text_in(output).empty()) {
+    Process sleeper("sh", {"-c", "echo $$; exec sleep 600"},
+                    {.output = output.get(), .ends_with_us = true});
+    while (text_in(output).empty() && !sleeper.ended()) {
     }
   }
   EXPECT_EQ(kill(std::stoi(text_in(output)), 0), -1);  // no such process

@@ -48,6 +48,14 @@ void print_stages(Trainer& trainer) {
   std::fflush(stdout);
 }
 
+/// The images of the dataset are already views; and figures compare with earlier ones.
+template <class Config>
+Config random_start(Config config) {
+  if (config.initialisation == Initialisation::automatic)
+    config.initialisation = Initialisation::random;
+  return config;
+}
+
 template <class Training>
 void train(const typename Training::Config& config, const Dataset& dataset,
            std::vector<TrainingView> views, const std::optional<Scene>& start) {
@@ -55,7 +63,7 @@ void train(const typename Training::Config& config, const Dataset& dataset,
   for (TrainingView& view : views) view.camera = relative_to(view.camera, region.center);
   SplatTrainer<Training> trainer(
       config, views, {.center = glm::dvec3(0), .half_side = region.half_side}, 1,
-      first_splats<Training>(dataset, config, region, start ? &*start : nullptr));
+      first_splats<Training>(dataset, random_start(config), region, start ? &*start : nullptr));
   while (!trainer.done()) {
     const int tenth = trainer.steps_done() * 10 / config.steps;
     trainer.step();

@@ -9,6 +9,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "base/threads/thread_pool.hpp"
@@ -38,6 +39,10 @@ constexpr float least_texture = 4.0f / 255;
 constexpr float least_correlation = 0.8f, least_lead = 0.05f;
 /// Random pixels for each point.
 constexpr std::size_t tries = 8;
+/// More would take more than 150 MB, whatever the limit of the memory is.
+constexpr std::size_t most_photographs = 300;
+/// The first of the streams of random numbers, one per task; other purposes have small numbers.
+constexpr std::uint64_t first_stream = 1 << 20;
 
 struct Image {
   Camera camera;
@@ -58,6 +63,8 @@ struct Neighbour {
   glm::dvec3 shift;
 };
 
+using Pixel = std::pair<std::size_t, std::size_t>;  // image, place
+
 struct Sweep {
   const Image* image;
   std::vector<Neighbour> neighbours;
@@ -68,7 +75,9 @@ using Patch = std::array<float, patch_pixels>;
 
 Image image_of(const Photograph& photograph, std::span<const float, 3> background) {
   TrainingView view = training_view(photograph, background);
-  while (std::int64_t(view.camera.width) * view.camera.height > max_pixels) view = halved(view);
+  while (std::int64_t(view.camera.width) * view.camera.height > max_pixels &&
+         std::min(view.camera.width, view.camera.height) >= 2)
+    view = halved(view);
   const std::size_t count = view.target.size() / 3;
   Image image{.camera = view.camera,
               .luma = std::vector<float>(count),
@@ -224,21 +233,26 @@ std::vector<DatasetPoint> stereo_points(std::span<const Photograph> photographs,
                                         const std::function<void(double fraction)>& progress) {
   if (photographs.size() < 3) return {};
   ThreadPool pool(threads);
-  std::vector<Image> images(photographs.size());
-  pool.run(images.size(), [&](std::size_t i) { images[i] = image_of(photographs[i], background); });
+  const std::size_t every = (photographs.size() + most_photographs - 1) / most_photographs;
+  std::vector<Image> images;
+  // One after the other: each takes the memory of a whole photograph.
+  for (std::size_t i = 0; i < photographs.size(); i += every)
+    images.push_back(image_of(photographs[i], background));
   std::vector<Sweep> sweeps(images.size());
   for (std::size_t i = 0; i < images.size(); ++i) sweeps[i] = sweep_of(images, i, region);
 
   constexpr std::size_t pixels_a_task = 256;
   const std::size_t batch = 1 + count / pixels_a_task;  // tasks between two reports of progress
   std::vector<DatasetPoint> points;
+  std::set<Pixel> taken;  // a pixel drawn again gives the same point
   for (std::size_t first = 0; first < tries * batch && points.size() < count; first += batch) {
     if (progress) progress(double(points.size()) / double(count));
-    std::vector<std::vector<DatasetPoint>> found(batch);
+    std::vector<std::vector<std::pair<Pixel, DatasetPoint>>> found(batch);
     pool.run(batch, [&](std::size_t task) {
-      Random random(seed, first + task);
+      Random random(seed, first_stream + first + task);
       for (std::size_t i = 0; i < pixels_a_task; ++i) {
-        const Sweep& sweep = sweeps[random.below(sweeps.size())];
+        const std::size_t index = random.below(sweeps.size());
+        const Sweep& sweep = sweeps[index];
         const Camera& camera = sweep.image->camera;
         if (camera.width <= 2 * radius || camera.height <= 2 * radius) continue;
         const int x = radius + int(random.below(std::uint64_t(camera.width - 2 * radius)));
@@ -250,11 +264,14 @@ std::vector<DatasetPoint> stereo_points(std::span<const Photograph> photographs,
         const glm::dvec3 ray((x + 0.5 - camera.cx) / camera.fx, (camera.cy - y - 0.5) / camera.fy,
                              -1.0);
         found[task].push_back(
-            {.position = camera.eye() + camera.world_from_view_rotation() * (ray / *inverse_depth),
-             .color = sweep.image->colors[place]});
+            {{index, place},
+             {.position = camera.eye() + camera.world_from_view_rotation() * (ray / *inverse_depth),
+              .color = sweep.image->colors[place]}});
       }
     });
-    for (const auto& some : found) points.insert(points.end(), some.begin(), some.end());
+    for (const auto& some : found)
+      for (const auto& [pixel, point] : some)
+        if (taken.insert(pixel).second) points.push_back(point);
   }
   if (points.size() > count) points.resize(count);
   return points;

@@ -75,11 +75,14 @@ void PageView::place_layer(LayerId layer, const glm::dmat4& world_from_layer,
   const DocumentLayer& before = layer_with(layer);
   if (const auto reason = defect(Layer{.world_from_layer = world_from_layer}))
     throw UsageError("the layer cannot be placed: " + *reason);
-  if (visible == before.visible) visible.reset();
-  if (before.world_from_layer != world_from_layer)
-    perform(PlaceLayer{layer, world_from_layer, visible});
-  else if (visible)
+  const bool shows = visible && *visible != before.visible;
+  if (before.world_from_layer != world_from_layer) {
+    // GCC 12 takes a member copied from an empty optional for uninitialised.
+    perform(shows ? PlaceLayer{layer, world_from_layer, *visible}
+                  : PlaceLayer{layer, world_from_layer, std::nullopt});
+  } else if (shows) {
     perform(ShowLayer{layer, *visible});
+  }
 }
 
 void PageView::show_layer(LayerId layer, bool visible) {

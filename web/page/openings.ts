@@ -19,7 +19,7 @@ export type Origin =
 /** The level of detail that an address may end in: streamed/lod-meta.json#lod=2. */
 const levelPart = /#lod=(\d{1,3})$/;
 
-const sourceAt = (address: string): SceneSource => {
+export const sourceAt = (address: string): SceneSource => {
   const lod = levelPart.exec(address)?.[1], url = urlOf({ url: address.replace(levelPart, '') });
   return lod === undefined ? { url } : { url, lod: Number(lod) };
 };

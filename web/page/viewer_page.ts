@@ -1,6 +1,5 @@
 // The page: creates a viewer on the canvas, and the controls around it.
 
-import { urlOf } from '../viewer/addresses.js';
 import { namedViews, ViewerError, type Assets, type SceneSource, type Viewer } from '../viewer/types.js';
 import { createViewer } from '../viewer/viewer.js';
 import { AddressBar } from './address_bar.js';
@@ -10,7 +9,7 @@ import { FullScreen } from './full_screen.js';
 import { Loading } from './loading.js';
 import { recall } from './memory.js';
 import { Messages } from '../common/messages.js';
-import { Openings } from './openings.js';
+import { Openings, sourceAt } from './openings.js';
 import { Panel } from './panel.js';
 import { CamerasSection } from './sections/cameras.js';
 import { DrawingSection } from './sections/drawing.js';
@@ -39,7 +38,7 @@ export interface ViewerPageOptions {
 /** The source for an address if the page can fetch it, otherwise null. Opening it later reports the error. */
 function fetchable(address: string): SceneSource | null {
   try {
-    return { url: urlOf({ url: address }) };
+    return sourceAt(address);
   } catch {
     return null;
   }

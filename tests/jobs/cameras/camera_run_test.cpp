@@ -241,7 +241,9 @@ TEST_F(CameraSearch, KnownCamerasGetPoints) {
   EXPECT_TRUE(find().is_written);
   fs::remove(options.dataset / "sparse/0/points3D.bin");
   ASSERT_TRUE(read_dataset_summary(options.dataset).points.empty());
-  const CameraOptions known{.dataset = options.dataset, .colmap = options.colmap, .threads = 2};
+  CameraOptions known = options;
+  known.photographs.clear();
+  known.threads = 2;
   behave("kill=matches_importer");
   EXPECT_THROW(add_points(known, events), Error);
   EXPECT_FALSE(fs::exists(options.dataset / "sparse/0/points3D.ply"));

@@ -150,7 +150,7 @@ TEST_F(ThoroughCameras, ThatAreKnownGetPointsOnTheSurfaces) {
   for (int i = 0; i < count; ++i)
     document["frames"].push_back(test::frame_of("photos/" + name(i), taken[std::size_t(i)]));
   write_file(folder / "transforms.json", document.dump());
-  const PointOutcome outcome = add_points({.dataset = folder}, events);
+  const PointOutcome outcome = add_points({.photographs = {}, .dataset = folder}, events);
   EXPECT_GT(outcome.points, 500u);
   EXPECT_LT(outcome.error_px, 1);
   const DatasetSummary summary = read_dataset_summary(folder);
