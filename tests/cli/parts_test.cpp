@@ -214,7 +214,7 @@ TEST(Views, TheScenesOwnCameraComesBeforeAViewOfOurs) {
   options.size = "400x300";
   const Camera larger = resolve_views(options, scene, "").cameras[0];
   EXPECT_EQ(larger.width, 400);
-  EXPECT_DOUBLE_EQ(larger.fy, 3 * scene.cameras[0].fy);  // the same vertical angle
+  EXPECT_DOUBLE_EQ(larger.fx, 2 * scene.cameras[0].fx);  // the whole width, and more above it
   options.orbit = 4;
   EXPECT_EQ(resolve_views(options, scene, "").cameras.size(), 4u);
 }

@@ -258,7 +258,7 @@ TEST_F(TrainGaussians, ReportsWrongUsageAndInputs) {
   expect({"--compat"}, 2, "--compat", "diffsoup", "--config");
   expect({"--batch", "2"}, 2, "--batch", "diffsoup", "--steps");
   expect({"--triangles", "100"}, 2, "--triangles", "--max-splats");
-  expect({"--device", "cuda"}, 2, "--device cuda", "processor");
+  expect({"--device", "cuda"}, 2, "--device cuda", "CPU");
   expect({"--export-diffsoup", "web"}, 2, "--export-diffsoup", "page.html");
   expect({"--steps", "5", "--minutes", "1"}, 2, "--steps", "--minutes");
   expect({"--max-splats", "0"}, 2, "max_splats", 0, 1);

@@ -241,7 +241,7 @@ TEST(Off, SaysWhatWritingLosesInEnglish) {
   TemporaryFolder folder;
   EXPECT_THAT(
       write_off(scene, folder / "a.off"),
-      ElementsAre("OFF stores no up axis: readers assume z, but that of the scene is x, so they "
+      ElementsAre("OFF stores no up axis: readers assume z, but that of the scene is y, so they "
                   "show it tilted.",
                   "OFF holds no background colour.", "OFF holds no cameras.",
                   "OFF holds no first view.", "OFF holds colours in 8 bits: they are rounded."));

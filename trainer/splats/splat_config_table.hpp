@@ -56,7 +56,7 @@ std::vector<typename C::Field> with_common_fields(std::vector<typename C::Field>
       {"seed", &C::seed, any_seed, "Random seed; equal seeds give equal splats"},
       {"initialisation", &C::initialisation, none,
        "Source of the initial splats: points of the dataset, random points, or a scene; automatic "
-       "uses points of the dataset, or finds some in photographs without alpha",
+       "uses points of the dataset, or finds some in photographs of a place",
        initialisation_words},
       {"minutes", &C::minutes, minutes,
        "Training time to which the run fits its steps, whatever steps says; 0 for a fixed number "

@@ -55,8 +55,8 @@ typename Training::Parameters random_splats(const typename Training::Config& con
 /// Training::size_at_point gives, and with config.first_opacity.
 ///
 /// Points: at most config.max_splats of them, with their colours. Further random ones in the region
-/// make up config.first_splats. With Initialisation::automatic, a dataset without points and
-/// without alpha gets stereo_points() from the images of dataset.train.
+/// make up config.first_splats. With Initialisation::automatic and
+/// config.far_splats, for a place, a dataset without points gets stereo_points() from its images.
 ///
 /// `start`: the scene of Initialisation::mesh, or one that replaces the others, or null; it has one
 /// layer. Splats of the method's kernel are taken as they are, in world coordinates; Gaussians
