@@ -229,8 +229,8 @@ void say_written(const WrittenImages& images, const Views& views) {
   for (std::size_t i = 0; i < paths.size(); ++i)
     say("wrote " + paths[i] +
         (i < views.cameras.size() && i < images.ms.size()
-             ? fmt::format(", {} x {}, {:.3g} s", views.cameras[i].width, views.cameras[i].height,
-                           images.ms[i] / 1000)
+             ? fmt::format(", {} x {}, drawn in {:.3g} s", views.cameras[i].width,
+                           views.cameras[i].height, images.ms[i] / 1000)
              : ""));
 }
 

@@ -127,10 +127,11 @@ std::optional<OwnFact> too_few_steps(double steps, const FullPhotographs& full,
   const double needed = std::max(double(full.cameras.size()), wanted_steps(full, method) / 4.0);
   if (steps >= needed) return {};
   return OwnFact{"too_few_steps", needed,
-                 fmt::format("fewer than {} steps from {} leave a scene blurred: more minutes, or "
-                             "smaller photographs, allow more steps",
-                             counted(std::uint64_t(std::ceil(needed))),
-                             counted(full.cameras.size(), "photograph"))};
+                 fmt::format("{} from {} leave the scene blurred; it needs at least {}: give more "
+                             "minutes, or smaller photographs",
+                             counted(std::uint64_t(std::max(0.0, steps)), "step"),
+                             counted(full.cameras.size(), "photograph"),
+                             counted(std::uint64_t(std::ceil(needed))))};
 }
 
 double one_digit(double value) {

@@ -52,10 +52,15 @@ void background_rows(State& state) {
   ImGui::SetNextItemWidth(9 * ImGui::GetFontSize() - ImGui::GetFrameHeight() - gap);
   ImGui::InputText("##background", &state.background_text, ImGuiInputTextFlags_AutoSelectAll);
   if (ImGui::IsItemDeactivatedAfterEdit() && state.background_text != color_text(color)) {
+    const char* refusal = "The background was not changed";
+    const auto& messages = state.messages.list();
+    const auto earlier = std::ranges::find(messages, refusal, &Message::title);
+    if (earlier != messages.end()) state.messages.dismiss(std::size_t(earlier - messages.begin()));
     try {
-      state.edit(ChangeBackground{color = parse_color(state.background_text)});
+      color = parse_color(state.background_text);
+      state.edit(ChangeBackground{color});
     } catch (const UsageError& error) {
-      state.error("The background was not changed", error.what());
+      state.error(refusal, error.what());
     }
   }
   if (!ImGui::IsItemActive()) state.background_text = color_text(color);

@@ -86,8 +86,10 @@ void view_panel(State& state) {
   if (button("First view", quarter)) run_shortcut(Key::r, With::nothing, state);
   tip("R: return to the first view");
   ImGui::SameLine();
-  if (button("Keep as first view", share_of_row(1)))
+  if (button("Keep as first view", share_of_row(1))) {
     state.edit(ChangeFirstView{controls.camera(state.pixels.x, state.pixels.y)});
+    state.note("This view is the first one, here and in the saved file.");
+  }
   tip("Shows this view first, here and in the saved file");
   up_menu(state);
   auto fov = static_cast<float>(controls.fov() * degrees_per_radian);
