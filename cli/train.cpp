@@ -338,7 +338,9 @@ ExitCode train(TrainOptions options) {
                     counted(std::uint64_t(now.steps)), job.output.string()));
   };
   if (options.watch) events.snapshot = [&](const Scene& scene) { window.show(scene); };
+  bool is_stored = false;
   events.finished = [&](const Scene& scene) -> std::vector<std::string> {
+    is_stored = true;
     progress.reset();
     if (diffsoup_export.empty()) return {};
     say_list("Lost in " + diffsoup_export.string() + ":",
@@ -355,8 +357,17 @@ ExitCode train(TrainOptions options) {
   events.failed_aid = [](const std::string& sentence) { say(sentence); };
 
   say_list("Reading " + options.dataset.path + ":", notes_of(dataset.remarks));
-  TrainingOutcome result = run.train(dataset, start ? &*start : nullptr, events);
-  if (full && result.training.run.seconds >= 0.9 * 60 * run.method().minutes())  // not ended early
+  TrainingOutcome result;
+  try {
+    result = run.train(dataset, start ? &*start : nullptr, events);
+  } catch (const Interrupted&) {
+    if (is_stored)
+      say("wrote " + files.scene.string() +
+          "; interrupted before it was measured on the test views");
+    throw;
+  }
+  // A run uses at least 95 % of its minutes, unless its user ended it by *Stop and keep*.
+  if (full && result.training.run.seconds >= 0.9 * 60 * run.method().minutes())
     if (auto warning = too_few_steps(result.training.steps, *full, *job.training.method))
       result.training.own.push_back(*warning);
   progress.reset();

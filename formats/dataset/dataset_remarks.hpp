@@ -37,10 +37,9 @@ inline constexpr RemarkKind points_unreadable{
 inline constexpr RemarkKind points_skipped{
     "points_skipped", Severity::loss,
     "{count} {count:point is|points are} damaged or not finite and {count:was|were} skipped."};
-inline constexpr RemarkKind points_none{"points_none", Severity::note,
-                                        "The dataset has no points; training begins at some that "
-                                        "it finds in the photographs, or at random "
-                                        "ones."};
+inline constexpr RemarkKind points_none{
+    "points_none", Severity::note,
+    "The dataset has no points; training begins at points in the photographs, or at random ones."};
 inline constexpr RemarkKind photographs_skipped{
     "photographs_skipped", Severity::loss,
     "{count} of {all} photographs {count:was|were} skipped ({names}): {reason}."};

@@ -39,10 +39,7 @@ TrainingView small_view(const Photograph& photograph, const FirstGaussians& firs
                         const Region& region) {
   TrainingView view =
       trainer::training_view(photograph, std::span<const float, 3>(first.constants.background));
-  while (first.max_pixels > 0 &&
-         std::int64_t(view.camera.width) * view.camera.height > first.max_pixels &&
-         std::min(view.camera.width, view.camera.height) >= 2 * min_side)
-    view = trainer::halved(view);
+  if (first.max_pixels > 0) view = trainer::halved_to(std::move(view), first.max_pixels, min_side);
   view.camera = trainer::relative_to(view.camera, region.center);
   if (photograph.file()) trainer::store(view, photograph.file());
   return view;

@@ -34,8 +34,7 @@ inline const MethodOption max_bytes_option{
     .type = MethodOption::Type::whole,
     .help =
         "instead of a number of splats: largest number of bytes of all splats, as 32-bit floats; "
-        "also "
-        "chooses the degree of their harmonics",
+        "also chooses the degree of their harmonics",
     .instead = "--triangles and --level set the size of a soup",
     .value_name = "N"};
 

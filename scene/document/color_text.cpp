@@ -1,12 +1,12 @@
 #include "scene/document/color_text.hpp"
 
-#include <cstdio>
 #include <cstdlib>
 #include <glm/common.hpp>
 #include <optional>
 #include <sstream>
 #include <vector>
 
+#include "base/decimal.hpp"
 #include "base/error.hpp"
 #include "base/suggestion.hpp"
 
@@ -52,6 +52,20 @@ std::optional<glm::vec3> hexadecimal(const std::string& digits) {
   return glm::vec3(rgb >> 16 & 255, rgb >> 8 & 255, rgb & 255) / 255.0f;
 }
 
+/// The colour of "r,g,b", the same in every locale.
+std::optional<glm::vec3> three_values(const std::string& text) {
+  glm::vec3 color(0);
+  const char* at = text.c_str();
+  for (int i = 0; i < 3; ++i) {
+    const Decimal number = parse_decimal(at);
+    if (!number.end || *number.end != (i < 2 ? ',' : '\0')) return {};
+    color[i] = number.value;
+    at = number.end + 1;
+  }
+  if (color != glm::clamp(color, 0.0f, 1.0f)) return {};
+  return color;
+}
+
 }  // namespace
 
 glm::vec3 parse_color(const std::string& text) {
@@ -64,11 +78,7 @@ glm::vec3 parse_color(const std::string& text) {
   for (std::string next, digits; table >> next >> digits; known.push_back(next))
     if (name == next) return *hexadecimal(digits);
   if (const auto color = hexadecimal(text.substr(text.starts_with('#') ? 1 : 0))) return *color;
-  glm::vec3 color(0);
-  int end = 0;
-  if (std::sscanf(text.c_str(), "%f,%f,%f%n", &color.x, &color.y, &color.z, &end) == 3 &&
-      std::size_t(end) == text.size() && color == glm::clamp(color, 0.0f, 1.0f))
-    return color;
+  if (const auto color = three_values(text)) return *color;
   std::string hint = name.empty() ? "" : did_you_mean(name, known);
   if (hint.empty()) hint = "write a name such as white, #ff8000, or 0.2,0.4,1";
   throw UsageError("'" + text + "' is not a colour", hint);

@@ -9,6 +9,9 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
+#include "trainer/splats/gaussians/gaussian_training.hpp"
+#include "trainer/splats/splat_initialise.hpp"
+
 namespace tureen::trainer {
 namespace stereo_points_test {
 
@@ -91,6 +94,27 @@ TEST(StereoPoints, NoneIsInIgnoredPixels) {
   const auto left = std::ranges::count_if(
       points, [](const DatasetPoint& point) { return point.position.x < -0.1; });
   EXPECT_LE(left, std::ptrdiff_t(points.size() / 20));  // those at wrong depths
+}
+
+/// The fraction of the first splats that lie near the wall.
+double share_near_wall(const GaussianConfig& config) {
+  Dataset dataset;
+  dataset.train = wall_photographs(5);
+  Random random(1);
+  const GaussianParameters first = initial_splats<GaussianTraining>(
+      dataset, config, {.center = {0, 0, 0}, .half_side = 1}, nullptr, random);
+  const float* z = first.drawn.row(splatting::gaussian_row::z);
+  return double(std::count_if(z, z + first.count(), [](float at) { return std::abs(at) < 0.05; })) /
+         double(first.count());
+}
+
+TEST(StereoPoints, AreTheFirstSplatsOfAPlaceWithoutPoints) {
+  GaussianConfig config{{.first_splats = 200, .far_splats = 0.5}};
+  EXPECT_GT(share_near_wall(config), 0.9);
+  config.initialisation = Initialisation::random;
+  EXPECT_LT(share_near_wall(config), 0.1);  // 0.05 of the cube's 1, and half of them far
+  config = {{.first_splats = 200}};         // an object: random in the cube
+  EXPECT_LT(share_near_wall(config), 0.1);
 }
 
 TEST(StereoPoints, AreNoneWhereNothingCanBeMeasured) {

@@ -121,4 +121,11 @@ TrainingView halved(const TrainingView& view) {
   return result;
 }
 
+TrainingView halved_to(TrainingView view, std::int64_t max_pixels, int min_side) {
+  while (std::int64_t(view.camera.width) * view.camera.height > max_pixels &&
+         std::min(view.camera.width, view.camera.height) >= 2 * min_side)
+    view = halved(view);
+  return view;
+}
+
 }  // namespace tureen::trainer

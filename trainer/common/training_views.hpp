@@ -52,5 +52,8 @@ Camera relative_to(Camera camera, const glm::dvec3& origin);
 /// The view with half the pixels along each side, means of 2 x 2; without an odd last column or
 /// row. A pixel is ignored if one of the four is. For images of at least 2 x 2 pixels.
 TrainingView halved(const TrainingView& view);
+/// The view, halved until it has at most `max_pixels` or a side would be shorter than `min_side`,
+/// at least 1.
+TrainingView halved_to(TrainingView view, std::int64_t max_pixels, int min_side);
 
 }  // namespace tureen::trainer

@@ -35,7 +35,8 @@ constexpr double best_baseline = 0.15;
 constexpr double nearest = 0.25, farthest = 8;
 /// Standard deviation of a patch with texture: four times the rounding to bytes, and noise.
 constexpr float least_texture = 4.0f / 255;
-/// Correlation of a match; and by how much it exceeds that of all other depths.
+/// Correlation of a match; and by how much it exceeds that of all other depths. First guesses,
+/// not tuned.
 constexpr float least_correlation = 0.8f, least_lead = 0.05f;
 /// Random pixels for each point.
 constexpr std::size_t tries = 8;
@@ -74,10 +75,7 @@ struct Sweep {
 using Patch = std::array<float, patch_pixels>;
 
 Image image_of(const Photograph& photograph, std::span<const float, 3> background) {
-  TrainingView view = training_view(photograph, background);
-  while (std::int64_t(view.camera.width) * view.camera.height > max_pixels &&
-         std::min(view.camera.width, view.camera.height) >= 2)
-    view = halved(view);
+  TrainingView view = halved_to(training_view(photograph, background), max_pixels, 1);
   const std::size_t count = view.target.size() / 3;
   Image image{.camera = view.camera,
               .luma = std::vector<float>(count),
