@@ -59,8 +59,8 @@ std::optional<TrainingForecast> forecast_of(const TrainingLength& length,
                                             const FullPhotographs& full,
                                             const TrainingMethodInfo& method,
                                             double seconds_per_pixel);
-/// A warning if so many steps teach the scene little: fewer than there are photographs, or than a
-/// quarter of those from which larger photographs are better (TrainingMethodInfo::least_steps).
+/// A warning if `steps` are too few for a sharp scene: fewer than the photographs, or than a quarter
+/// of the number from which larger photographs pay (TrainingMethodInfo::least_steps).
 std::optional<OwnFact> too_few_steps(double steps, const FullPhotographs& full,
                                      const TrainingMethodInfo& method);
 
