@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
-#include <set>
 #include <utility>
 
 #include "base/error.hpp"
@@ -14,6 +13,7 @@
 #include "runtime/passes/targets.hpp"
 #include "viewer/gui/colors.hpp"
 #include "viewer/gui/item_places.hpp"
+#include "viewer/input/take_frame.hpp"
 #include "viewer/panels.hpp"
 #include "viewer/shortcuts.hpp"
 
@@ -46,30 +46,6 @@ WindowOptions window_options(const ApplicationOptions& options, const Settings& 
 
 Settings settings_of(const ApplicationOptions& options) {
   return options.settings ? read_settings(*options.settings) : Settings{};
-}
-
-/// Takes the events of one frame. No button or key changes twice in a frame: Dear ImGui reads
-/// states once a frame and would miss a click.
-std::vector<Event> take_frame(std::vector<Event>& pending) {
-  std::set<Key> keys;
-  std::set<Button> buttons;
-  std::size_t count = 0;
-  for (; count < pending.size(); ++count) {
-    const auto* key = std::get_if<KeyChanged>(&pending[count]);
-    const auto* button = std::get_if<ButtonChanged>(&pending[count]);
-    if (key && !keys.insert(key->key).second) break;
-    if (button && !buttons.insert(button->button).second) break;
-    // The control may move until the next frame.
-    if (count > 0 && std::holds_alternative<ControlClicked>(pending[count])) break;
-    if (std::holds_alternative<WindowScreenshot>(pending[count])) {
-      ++count;
-      break;
-    }
-  }
-  const auto end = pending.begin() + static_cast<std::ptrdiff_t>(count);
-  std::vector<Event> result(std::make_move_iterator(pending.begin()), std::make_move_iterator(end));
-  pending.erase(pending.begin(), end);
-  return result;
 }
 
 /// Framebuffer pixels in a point, at least 1.

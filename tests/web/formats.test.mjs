@@ -365,7 +365,7 @@ test('what only the program reads has an error that names it', (context) => visi
   }]));
 }));
 
-// Floor 3 s, aim 1.5 s (issue 62); on two cores that also draw, and perhaps build, a test can only print it.
+// Should take 3 s; on two cores that also draw, and perhaps build, a test can only print it.
 test('playbot is shown whole', { skip: existsSync(playbot) ? false : 'no ../shared/data' }, () => visit('drawing.html', async (page) => {
   await drawingPage(page);
   const [splats, ms] = await page.evaluate(async () => {

@@ -113,7 +113,8 @@ Gui::~Gui() = default;
 void Gui::feed(const Event& event) { std::visit(Feeder{ImGui::GetIO()}, event); }
 
 bool Gui::takes_pointer() const { return ImGui::GetIO().WantCaptureMouse; }
-bool Gui::takes_keys() const { return ImGui::GetIO().WantTextInput; }
+// WantTextInput lasts a frame longer than the field: Enter and Ctrl+Q may come with long frames.
+bool Gui::takes_keys() const { return ImGui::GetIO().WantTextInput && ImGui::IsAnyItemActive(); }
 
 void Gui::begin(const Frame& frame) {
   ImGuiIO& io = ImGui::GetIO();

@@ -42,7 +42,7 @@ fs::path folder_buttons(State& state) {
   tip("A dataset, photographs, a DiffSoup export, a MobileNeRF model");
   if (state.stage) {
     ImGui::SameLine();
-    check("Add to the scene", &state.adds_files);
+    check_beside_field("Add to the scene", &state.adds_files);
     tip("Adds scenes as layers, as if they were dropped on the window");
   }
   return next;

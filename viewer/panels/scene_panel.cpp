@@ -59,8 +59,8 @@ void box_facts(const Document& document) {
     return fmt::format("{:.4g}, {:.4g}, {:.4g}", v.x, v.y, v.z);
   };
   fact("Extent", fmt::format("{:.4g} \u00d7 {:.4g} \u00d7 {:.4g}", extent.x, extent.y, extent.z));
-  tip("Size of the box around all layers along x, y and z, in world units. Splats far from all "
-      "others do not count");
+  tip("Size of the box around all layers along x, y and z, in world units. Splats count with their "
+      "faint edges, but not if they are far from all others");
   fact("Box", fmt::format("{}\nto {}", list(box.low), list(box.high)));
   tip("Lowest and highest corner: x, y, z");
 }
@@ -68,6 +68,7 @@ void box_facts(const Document& document) {
 /// Powers of 1000, as on the page: "9.4 MB", "151 MB".
 std::string megabytes(std::size_t bytes) {
   const double value = 1e-6 * double(bytes);
+  if (value < 0.05) return "less than 0.1 MB";  // where the processor draws
   return fmt::format("{:.{}f} MB", value, value < 9.95 ? 1 : 0);
 }
 

@@ -18,8 +18,9 @@ void status_overlay(const State& state) {
   ImGui::PopStyleVar(3);
   if (state.stage) {
     const bool flies = state.controls.mode() == NavigationMode::fly;
-    text("{} \u00b7 up {} \u00b7 {} \u00d7 {} \u00b7 F1: help", flies ? "Fly" : "Orbit",
-         axis_name(state.controls.up()), state.pixels.x, state.pixels.y);
+    text("{} \u00b7 up {} \u00b7 {} \u00d7 {} \u00b7 F1: help{}", flies ? "Fly" : "Orbit",
+         axis_name(state.controls.up()), state.pixels.x, state.pixels.y,
+         tracing_text(state.traced));
   } else {
     text("F1: help");
   }

@@ -21,6 +21,13 @@ void tracing_rows(State& state) {
   }
 }
 
+std::string tracing_text(const TracedView& traced) {
+  if (!traced.is_running) return {};
+  if (traced.samples > 0)
+    return fmt::format(" \u00b7 ray tracing, {} of {} samples", traced.samples, traced.wanted);
+  return fmt::format(" \u00b7 ray tracing, {:.0f} % sharp", 100 * traced.sharp);
+}
+
 void traced_overlay(const State& state) {
   if (state.traced.texture)
     ImGui::GetBackgroundDrawList()->AddImage(state.traced.texture.id(), {0, 0},
