@@ -88,7 +88,9 @@ SogMeta read_sog_meta(SogFiles& files, const std::string& name, SogImages images
   meta.scales = file_of(scales, 0);
   meta.rotations = file_of(root["quats"], 0);
   meta.colors = file_of(colors, 0);
-  meta.scale_values = by_channel(scales);
+  meta.scale_values = by_channel(scales);  // logarithms
+  for (ByteValues& axis : meta.scale_values)
+    for (double& value : axis) value = std::exp(value);
   meta.color_values = by_channel(colors);
   meta.opacity_values = between_limits(0, 1);
   if (!version) {

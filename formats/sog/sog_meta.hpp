@@ -21,7 +21,7 @@ struct SogMeta {
   /// Range of sign(x) log(1 + |x|) of the centres.
   glm::dvec3 low{0.0}, high{0.0};
   std::string means_low = {}, means_high = {}, scales = {}, rotations = {}, colors = {};
-  std::array<ByteValues, 3> scale_values = {};  // logarithms, by axis
+  std::array<ByteValues, 3> scale_values = {};  // sizes, by axis
   std::array<ByteValues, 3> color_values = {};  // harmonics of degree 0, by channel
   ByteValues opacity_values = {};               // 0..1
 

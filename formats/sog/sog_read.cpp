@@ -211,7 +211,7 @@ class SogReader {
         for (int k = 0; k < 3; ++k) {
           const double fraction = double(low.pixels[i][k] + 256 * high.pixels[i][k]) / 65535;
           splat.center[k] = unlogged(meta.low[k] + (meta.high[k] - meta.low[k]) * fraction);
-          splat.scales[k] = std::exp(meta.scale_values[std::size_t(k)][scales.pixels[i][k]]);
+          splat.scales[k] = float(meta.scale_values[std::size_t(k)][scales.pixels[i][k]]);
           coefficients[0][k] = float(meta.color_values[std::size_t(k)][colors.pixels[i][k]]);
         }
         if (std::string_view(meta.profile) == "2dgs") splat.scales.z = 0;
