@@ -12,19 +12,26 @@ namespace tureen {
 
 namespace {
 
-/// The box around the middle 98 % of the points that visit(add) adds, along each axis; `all` for
-/// fewer than 100 points.
-template <class Visit>
-Bounds middle_of(const Bounds& all, const Visit& visit) {
-  Bounds result = all;
+/// The box around the middle 98 % of the points that visit(add) adds, along each axis; for fewer
+/// than 100 points that of bounds(), which is computed only then: for splats it takes as long as
+/// the rest.
+template <class Primitives, class Visit>
+Bounds middle_of(const Primitives& primitives, std::size_t points, const Visit& visit) {
+  Bounds result;
   std::vector<float> along;
+  along.reserve(points);
   for (int axis = 0; axis < 3; ++axis) {
     along.clear();
     visit([&](const glm::vec3& point) {
       if (std::isfinite(point[axis])) along.push_back(point[axis]);
     });
     const std::size_t cut = along.size() / 100;
-    if (cut == 0) continue;
+    if (cut == 0) {
+      const Bounds all = bounds(primitives);
+      result.low[axis] = all.low[axis];
+      result.high[axis] = all.high[axis];
+      continue;
+    }
     const auto low = along.begin() + std::ptrdiff_t(cut),
                high = along.end() - 1 - std::ptrdiff_t(cut);
     std::nth_element(along.begin(), low, along.end());
@@ -38,14 +45,14 @@ Bounds middle_of(const Bounds& all, const Visit& visit) {
 }  // namespace
 
 Bounds middle_bounds(const TriangleSoup& soup) {
-  return middle_of(bounds(soup), [&](const auto& add) {
+  return middle_of(soup, 3 * soup.triangles.size(), [&](const auto& add) {
     for (const glm::uvec3& t : soup.triangles)
       for (int k = 0; k < 3; ++k) add(soup.positions[t[k]]);
   });
 }
 
 Bounds middle_bounds(const Splats& splats) {
-  return middle_of(bounds(splats), [&](const auto& add) {
+  return middle_of(splats, count(splats), [&](const auto& add) {
     for (std::size_t i = 0; i < count(splats); ++i) add(glm::vec3(center(splats, i)));
   });
 }
