@@ -33,6 +33,7 @@ struct ApplicationOptions {
   bool smooth_at_rest = true;                    // false: switches off Settings::smooth_at_rest
   bool trace = false;                            // State::trace at the start
   std::optional<std::uint64_t> max_splats = {};  // ReadOptions::max_splats of every file
+  std::optional<std::size_t> lod = {};           // ReadOptions::lod of every file that is opened
   gl::Api api = gl::Api::desktop;
   std::optional<glm::ivec2> window = {};          // in points; default: of the last run
   std::optional<std::filesystem::path> settings;  // file; nullopt: not stored
@@ -107,6 +108,7 @@ class Application {
   void carry_out(const OpenPhotographs& request);
   void carry_out(const CloseDataset& request);
   void carry_out(const ReloadScene& request);
+  void carry_out(const ChooseLevel& request);
   void carry_out(const ChooseDrawing& request);
   void carry_out(const ShowRecorded& request);
   void carry_out(const FocusAt& request);

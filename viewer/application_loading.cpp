@@ -70,7 +70,8 @@ Worker::Completion Application::load_in_background(const Loading& loading,
           [&](const fs::path& path, const std::string& reason) {
             files->failures.push_back({path, reason});
           },
-      .max_splats = options_.max_splats};
+      .max_splats = options_.max_splats,
+      .lod = options_.lod};
   const StageRequest preparing{request.context, request.choice, [&](double done) {
                                  request.progress(reading_share + (1 - reading_share) * done);
                                }};

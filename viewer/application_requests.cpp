@@ -84,6 +84,12 @@ void Application::carry_out(const ReloadScene&) {
   load(loading);
 }
 
+void Application::carry_out(const ChooseLevel& request) {
+  if (!state_.stage || request.file >= state_.source.files.size()) return;
+  state_.source.files[request.file].lod = request.level;
+  carry_out(ReloadScene{});
+}
+
 void Application::carry_out(const OpenPhotographs& request) {
   const fs::path& path = request.path;
   const auto work = [this, path, trains = request.trains](const Worker::Progress& progress) {

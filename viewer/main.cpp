@@ -114,6 +114,10 @@ void add_arguments(CLI::App& program, Arguments& arguments) {
           "read at most N splats from each scene, those with the largest opacity times area")
       ->check(CLI::Range(std::uint64_t(1), std::uint64_t(0xffffffff)))
       ->option_text("N");
+  program
+      .add_option("--lod", options.lod,
+                  "level of detail to read from a streamed scene; 0 is the finest")
+      ->option_text("N");
   program.add_flag("--no-settings", arguments.no_settings, "do not load or save settings");
   program.add_flag(
       "--report", arguments.report,

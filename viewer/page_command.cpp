@@ -21,6 +21,7 @@ std::vector<std::string> page_arguments(const SceneSource& scene, const PageRequ
   if (!is_axis(request.up, scene.subject.up))
     add("--up", fmt::format("{},{},{}", request.up.x, request.up.y, request.up.z));
   if (request.max_splats) add("--max-splats", std::to_string(*request.max_splats));
+  if (const auto lod = lod_of(scene)) add("--lod", std::to_string(*lod));
   if (request.max_memory != default_max_memory)
     add("--max-memory", std::to_string(request.max_memory));
   if (!request.view.empty()) add("--view", request.view.string());

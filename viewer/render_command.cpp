@@ -171,6 +171,7 @@ std::string render_command(const SceneSource& scene, const DrawingChoice& choice
   for (const std::filesystem::path& path : scene.paths())
     command += " " + shell_word(path_for_command(path).string());
   if (max_splats) command += fmt::format(" --max-splats {}", *max_splats);
+  if (const auto lod = lod_of(scene)) command += fmt::format(" --lod {}", *lod);
   for (const std::string& argument : place_arguments(scene)) command += " " + shell_word(argument);
   if (needs_camera_file(camera)) {
     command += " --camera " + shell_word(camera_file.string());

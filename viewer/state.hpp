@@ -72,6 +72,10 @@ struct FindCameras {
 };
 struct CloseDataset {};
 struct ReloadScene {};
+/// Reads this level of detail of a file (SceneSource::files).
+struct ChooseLevel {
+  std::size_t file = 0, level = 0;
+};
 /// Draws the scene with these options.
 struct ChooseDrawing {
   DrawingChoice choice;
@@ -143,11 +147,11 @@ struct Quit {
 
 using Request =
     std::variant<OpenPath, AddPaths, Perform, Undo, Redo, GoToStep, SaveScene, SaveSceneAs,
-                 OpenPhotographs, FindCameras, CloseDataset, ReloadScene, ChooseDrawing,
-                 ShowRecorded, FocusAt, TakeImage, SavePage, CopyCommand, ToggleFullscreen,
-                 AddKeyframe, ShowKeyframe, MakeTurntable, FlyAlongCameras, SavePath, LoadPath,
-                 WriteAnimation, TellTraining, CancelJob, StartTraining, StopTraining,
-                 OfferTraining, CopyTrainingCommand, StopWriting, Quit>;
+                 OpenPhotographs, FindCameras, CloseDataset, ReloadScene, ChooseLevel,
+                 ChooseDrawing, ShowRecorded, FocusAt, TakeImage, SavePage, CopyCommand,
+                 ToggleFullscreen, AddKeyframe, ShowKeyframe, MakeTurntable, FlyAlongCameras,
+                 SavePath, LoadPath, WriteAnimation, TellTraining, CancelJob, StartTraining,
+                 StopTraining, OfferTraining, CopyTrainingCommand, StopWriting, Quit>;
 
 /// The photographs of the dataset, training ones first.
 struct Photographs {

@@ -107,7 +107,11 @@ class SogReader {
       if (*options_.lod > last)
         files_.input().fail("there is no level " + std::to_string(*options_.lod),
                             "the scene has the levels 0 to " + std::to_string(last));
-      return parts_of(levels, *options_.lod);
+      std::vector<SogPart> parts = parts_of(levels, *options_.lod);
+      chosen =
+          Remark{&remarks::level_read,
+                 {{"levels", last + 1}, {"level", *options_.lod}, {"splats", total_count(parts)}}};
+      return parts;
     }
     std::uint64_t finest = 0;
     for (const auto& range : levels.levels[0]) finest += range.count;
@@ -117,14 +121,20 @@ class SogReader {
       if (may_fit(levels, level) || level == last) parts = parts_of(levels, level);
       if (level < last && !fits(parts)) continue;
       passing.keep(parts.size() * sizeof(SogPart));
-      std::uint64_t splats = 0;
-      for (const SogPart& part : parts) splats += part.count();
       if (last > 0)
-        chosen = Remark{
-            &remarks::level_chosen,
-            {{"levels", last + 1}, {"level", level}, {"splats", splats}, {"finest", finest}}};
+        chosen = Remark{&remarks::level_chosen,
+                        {{"levels", last + 1},
+                         {"level", level},
+                         {"splats", total_count(parts)},
+                         {"finest", finest}}};
       return parts;
     }
+  }
+
+  static std::uint64_t total_count(const std::vector<SogPart>& parts) {
+    std::uint64_t splats = 0;
+    for (const SogPart& part : parts) splats += part.count();
+    return splats;
   }
 
   /// Whether the splats of the level are no more than requested.
@@ -137,10 +147,10 @@ class SogReader {
   /// Whether the budget holds the splats, twice while they are sorted, with keys of 17 bytes, and
   /// the images of one part, 7 of 4 bytes per splat, with their sources.
   bool fits(const std::vector<SogPart>& parts) {
-    std::uint64_t total = 0, largest = 0;
+    const std::uint64_t total = total_count(parts);
+    std::uint64_t largest = 0;
     int degree = 0;
     for (const SogPart& part : parts) {
-      total += part.count();
       largest = std::max(largest, part.meta.count);
       degree = std::max(degree, part.degree());
     }

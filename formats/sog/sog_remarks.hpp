@@ -11,4 +11,9 @@ inline constexpr RemarkKind level_chosen{"level_chosen", Severity::assumption,
                                          "the finest, with {finest}",
                                          "lod"};
 
+/// By ReadOptions::lod.
+inline constexpr RemarkKind level_read{"level_read", Severity::note,
+                                       "The scene has {levels} levels of detail: level {level} "
+                                       "with {splats} splats is read"};
+
 }  // namespace tureen::remarks

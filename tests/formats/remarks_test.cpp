@@ -88,6 +88,7 @@ const std::vector<Remark> every_kind{
     {&remarks::turned_upright, {{"from", "-y"}, {"to", "+z"}}},
     {&remarks::filter_applied},
     {&remarks::level_chosen, {{"levels", 7}, {"level", 1}, {"splats", 250000}, {"finest", 500000}}},
+    {&remarks::level_read, {{"levels", 7}, {"level", 1}, {"splats", 250000}}},
     {&remarks::splat_extensions_ignored, {{"extensions", Counts{3, 258}}}},
     {&remarks::preset_applied, {{"edits", Names{"seal", "sort"}}}},
     {&remarks::preset_keys_ignored, {{"keys", Names{"a"}}}},

@@ -7,6 +7,7 @@
 #include "formats/dataset/camera_file.hpp"
 #include "image/metrics.hpp"
 #include "scene/similarity.hpp"
+#include "tests/formats/splat/sog_fixture.hpp"
 #include "tests/support/golden.hpp"
 #include "tests/viewer/window_fixture.hpp"
 
@@ -163,6 +164,30 @@ TEST_F(WindowPanel, ClosesAfterTheSceneIsSaved) {
   EXPECT_FALSE(fs::exists(folder_ / "pictures/open.png")) << "the window is still open";
   const glm::vec3 wheat = glm::vec3(0xf5, 0xde, 0xb3) / 255.0f;
   EXPECT_LT(glm::distance(read_scene(folder_ / "soup.glb").info.background, wheat), 1e-6f);
+}
+
+TEST_F(WindowPanel, ReadsAnotherLevelOfAStreamedScene) {
+  for (const auto& [name, content] : streamed_splats()) {
+    const fs::path file = folder_ / "streamed" / name;
+    fs::create_directories(file.parent_path());
+    std::ofstream(file, std::ios::binary) << content;
+  }
+  const auto saved = [&](const char* file) { return splat_count(read_scene(folder_ / file)); };
+  Person person({1000, 700});
+  person.wait().click("Level").click("1 (coarsest)").wait().press_with_control(Key::s).wait();
+  ChildResult result =
+      replay(person.select_all().type("coarse.glb").press(Key::enter).wait(), {"streamed"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  Person finest;
+  finest.wait().click("Level").click("0 (finest)").wait().press_with_control(Key::s).wait();
+  result = replay(finest.select_all().type("fine.glb").press(Key::enter).wait(),
+                  {"streamed", "--lod", "1"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(saved("fine.glb"), 6u);
+  EXPECT_EQ(saved("coarse.glb"), 4u);
+  result = replay(Person().wait(), {"streamed", "--lod", "2"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, testing::HasSubstr("levels 0 to 1"));
 }
 
 TEST_F(WindowPanel, FliesAlongTheRecordedCameras) {

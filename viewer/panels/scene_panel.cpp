@@ -141,6 +141,30 @@ void fact_rows(const State& state) {
                   state.stage->prepare_seconds));
 }
 
+/// The levels of detail of streamed scenes.
+void level_rows(State& state) {
+  const std::vector<SceneFile>& files = state.source.files;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const std::optional<DetailLevels> levels = levels_of(files[i]);
+    if (!levels || levels->count < 2 || !has_layers(state.source, i)) continue;
+    const auto name = [&](std::size_t level) {
+      return std::to_string(level) + (level == 0                   ? " (finest)"
+                                      : level + 1 == levels->count ? " (coarsest)"
+                                                                   : "");
+    };
+    ImGui::PushID(int(i));
+    field("Level");
+    if (ImGui::BeginCombo("##level", name(levels->level).c_str())) {
+      for (std::size_t level = 0; level < levels->count; ++level)
+        if (list_item(name(level), level == levels->level) && level != levels->level)
+          state.ask(ChooseLevel{i, level});
+      ImGui::EndCombo();
+    }
+    tip("Level of detail of " + short_name(files[i].path));
+    ImGui::PopID();
+  }
+}
+
 }  // namespace
 
 void scene_panel(State& state) {
@@ -149,6 +173,7 @@ void scene_panel(State& state) {
                       ImVec2(ImGui::GetStyle().ItemSpacing.x, 0.2f * ImGui::GetFontSize()));
   fact_rows(state);
   ImGui::PopStyleVar();
+  level_rows(state);
   notes_rows(state.source.scene->info);
   if (button("Open")) state.show_files = true;
   tip("O: replaces the scene, or adds layers to it");

@@ -30,11 +30,12 @@ constexpr std::uint64_t max_preview_bytes = 256 << 20;
 constexpr std::uint64_t max_header_bytes = 1 << 20;
 
 ReadOptions options_of(const ReadRequest& request, std::function<void(double)> progress) {
-  return {.max_splats = request.max_splats, .progress = std::move(progress)};
+  return {.lod = request.lod, .max_splats = request.max_splats, .progress = std::move(progress)};
 }
 
 /// Appends the scene of a file, and its layers. They have no names yet.
-void append_scene(SceneSource& source, const fs::path& path, const FileWatch& watch, Scene read) {
+void append_scene(SceneSource& source, const fs::path& path, const FileWatch& watch, Scene read,
+                  std::optional<std::size_t> lod = {}) {
   auto scene = std::make_shared<Scene>(std::move(read));
   if (scene->info.name.empty()) scene->info.name = fs::path(short_name(path)).stem().string();
   // As merged() does, which the commands use.
@@ -51,12 +52,12 @@ void append_scene(SceneSource& source, const fs::path& path, const FileWatch& wa
         std::make_shared<const Primitives>(std::exchange(layer.primitives, TriangleSoup{}));
     source.origins[added.id] = {source.files.size(), i};
   }
-  source.files.push_back({path, watch, std::move(scene)});
+  source.files.push_back({path, watch, std::move(scene), lod});
 }
 
 void append_file(SceneSource& source, const fs::path& path, const ReadOptions& options) {
   const FileWatch watch(path);
-  append_scene(source, path, watch, read_scene(path, options));
+  append_scene(source, path, watch, read_scene(path, options), options.lod);
 }
 
 void append_files(SceneSource& source, const ReadRequest& request) {
@@ -136,9 +137,10 @@ SceneSource read_again(const SceneSource& before, const ReadRequest& request) {
       continue;
     }
     request.begins(file.path);
-    append_file(source, file.path, options_of(request, [&](double done) {
-                  request.progress((finished + done) / total);
-                }));
+    ReadOptions options =
+        options_of(request, [&](double done) { request.progress((finished + done) / total); });
+    options.lod = file.lod;
+    append_file(source, file.path, options);
     take_ids(source, i, before);
     finished += 1;
   }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "camera/capture.hpp"
+#include "formats/sog/sog_remarks.hpp"
 #include "scene/middle_bounds.hpp"
 #include "viewer/names.hpp"
 
@@ -34,6 +35,7 @@ std::string control_of(const Remark& remark) {
   const std::string_view setting = remark.kind->setting;
   return setting == "up"        ? "; Up in the panel View changes it"
          : setting == "profile" ? "; Profile in the panel Drawing changes it"
+         : setting == "lod"     ? "; Level in the panel Scene changes it"
                                 : "";
 }
 
@@ -90,6 +92,27 @@ bool SceneSource::is_as_read() const {
 bool SceneSource::is_from_files() const {
   return std::all_of(document.layers.begin(), document.layers.end(),
                      [&](const DocumentLayer& layer) { return origins.contains(layer.id); });
+}
+
+bool names_levels(const Remark& remark) {
+  return remark.kind == &remarks::level_chosen || remark.kind == &remarks::level_read;
+}
+
+std::optional<DetailLevels> levels_of(const SceneFile& file) {
+  for (const Remark& remark : file.header->info.remarks) {
+    if (!names_levels(remark)) continue;
+    const auto number = [&](std::size_t field) {
+      return std::size_t(std::get<std::uint64_t>(remark.fields[field].value));
+    };
+    return DetailLevels{number(0), number(1)};
+  }
+  return std::nullopt;
+}
+
+std::optional<std::size_t> lod_of(const SceneSource& source) {
+  for (const SceneFile& file : source.files)
+    if (file.lod && levels_of(file)) return file.lod;
+  return std::nullopt;
 }
 
 bool has_splats(const SceneSource& source) {

@@ -24,7 +24,17 @@ struct SceneFile {
   FileWatch watch;  // created before it was read
   /// The file's scene as it was read, except that its layers are empty.
   std::shared_ptr<const Scene> header;
+  std::optional<std::size_t> lod = {};  // ReadOptions::lod
 };
+
+/// The levels of detail of a streamed scene, and the one that was read.
+struct DetailLevels {
+  std::size_t count = 0, level = 0;
+};
+/// Whether the remark names them, with `count` and `level` as its first fields.
+bool names_levels(const Remark& remark);
+/// nullopt for files without levels.
+std::optional<DetailLevels> levels_of(const SceneFile& file);
 
 /// The file of a layer, its index there, and the name that it got.
 struct LayerOrigin {
@@ -66,6 +76,9 @@ struct SceneSource {
   /// Whether all layers are those of files, which commands can read.
   bool is_from_files() const;
 };
+
+/// The first file's chosen level of detail; commands have one option for all files.
+std::optional<std::size_t> lod_of(const SceneSource& source);
 
 /// Whether the document has a layer of this file, or this layer of it.
 bool has_layers(const SceneSource& source, std::size_t file, std::optional<std::size_t> index = {});
@@ -111,6 +124,7 @@ struct ReadRequest {
   /// and if no file remains, the error is thrown.
   std::function<void(const std::filesystem::path&, const std::string& reason)> unreadable = {};
   std::optional<std::uint64_t> max_splats = {};  // ReadOptions::max_splats
+  std::optional<std::size_t> lod = {};           // ReadOptions::lod of the files in `paths`
 };
 
 /// The layers of all files, in one scene (merged() in scene/scene.hpp). Throws InputError, and

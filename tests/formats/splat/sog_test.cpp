@@ -138,6 +138,9 @@ TEST(Sog, AStreamedSceneHasTheLevelThatIsAskedForOrFits) {
       chosen.info.remarks,
       ::testing::Contains(Remark{&remarks::level_chosen,
                                  {{"levels", 2}, {"level", 1}, {"splats", 4}, {"finest", 4}}}));
+  EXPECT_THAT(read_scene(folder / "scene", {.lod = 1}).info.remarks,
+              ::testing::Contains(
+                  Remark{&remarks::level_read, {{"levels", 2}, {"level", 1}, {"splats", 4}}}));
   // Memory decides, too: an archive of the same files.
   const std::string bytes = zipped(streamed_splats());
   std::size_t least = 6;
