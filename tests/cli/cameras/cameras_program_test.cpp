@@ -82,5 +82,16 @@ TEST_F(Photographs, AreTrainedByOneCommandThatContinuesAfterCtrlC) {
   EXPECT_FALSE(exists("calls"));
 }
 
+TEST_F(Photographs, InsideADatasetAreNotSearchedAgain) {
+  write("transforms.json", "{}");
+  const ChildResult result =
+      run(with_stand_in({"train", "my photos", "-o", "scene.glb", "--steps", "1"}));
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(result.err, testing::HasSubstr("tureen train " + folder.string() + " uses these"));
+  EXPECT_THAT(result.err, testing::HasSubstr("tureen cameras 'my photos' finds others"));
+  EXPECT_FALSE(exists("calls"));
+  EXPECT_FALSE(exists("scene.dataset"));
+}
+
 }  // namespace cameras_program_test
 }  // namespace tureen::test
