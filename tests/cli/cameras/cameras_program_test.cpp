@@ -93,5 +93,17 @@ TEST_F(Photographs, InsideADatasetAreNotSearchedAgain) {
   EXPECT_FALSE(exists("scene.dataset"));
 }
 
+TEST_F(Photographs, ResumeContinuesASearchOnlyIfThereIsOne) {
+  const std::vector<std::string> command =
+      with_stand_in({"cameras", "my photos", "-o", "out", "--resume"});
+  const ChildResult nothing = run(command);
+  EXPECT_EQ(nothing.exit_code, 2);
+  EXPECT_THAT(nothing.err, testing::HasSubstr("out.work is missing"));
+  setenv("STAND_IN", "turning", 1);  // refused: its work stays
+  EXPECT_EQ(run(with_stand_in({"cameras", "my photos", "-o", "out"})).exit_code, 3);
+  EXPECT_EQ(run(command).exit_code, 3);
+  EXPECT_FALSE(exists("out"));
+}
+
 }  // namespace cameras_program_test
 }  // namespace tureen::test
