@@ -102,6 +102,9 @@ TEST_F(LayersProgram, ConvertStoresMaterials) {
 TEST_F(LayersProgram, ConvertRefusesSeveralLayersWhereOneIsNeeded) {
   expect_usage_error({"convert", "scene.off"}, "OUT");
   expect_usage_error({"convert", "scene.off", "fox.off", "out.glb"}, "-o OUT");
+  expect_usage_error(
+      {"convert", "scene.off", "fox.off"},
+      "to write one scene from all of them, add -o OUT.glb; to replace fox.off, add");
   expect_usage_error({"convert", "scene.off", "fox.off", "-o", "fox.off", "--force"}, "fox.off");
   for (const std::string out : {"out.off", "out.ply", "out/"})
     expect_usage_error({"convert", "scene.off", "fox.off", "-o", out}, "has 2: scene, fox");
