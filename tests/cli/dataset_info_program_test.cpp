@@ -43,7 +43,7 @@ TEST_F(DatasetInfo, PrintsWhatTheReaderUnderstood) {
       AllOf(HasSubstr("data: a dataset"), HasSubstr("3 to train on, 1 to test"),
             HasSubstr("16 x 12 (1), 20 x 12 (3)"),
             HasSubstr(
-                "2 without distortion; 1 with distortion, to be removed; 1 of a fisheye"),
+                "2 without distortion; 1 with distortion, to be removed; 1 with a fisheye lens"),
             HasSubstr("(0, 4, 1) to (9, 4, 1)"), HasSubstr("(1, 2, 1) to (4, 6, 3)"),
             HasSubstr("The up axis is assumed to be z")));
   const auto json = nlohmann::ordered_json::parse(result.out);
