@@ -16,7 +16,17 @@ struct CamerasCommand {
   CameraOptions job;
   std::string photographs, dataset;
   bool json = false;
+  bool resume = false;
 };
+
+/// With --resume: throws UsageError if no search was interrupted.
+void check_resume(const CamerasCommand& command, const std::filesystem::path& dataset) {
+  std::error_code ignored;
+  const std::filesystem::path work = camera_work_folder(dataset);
+  if (command.resume && !std::filesystem::exists(work, ignored))
+    throw UsageError("--resume has nothing to continue: " + work.string() + " is missing",
+                     "omit --resume to begin; -o must name the dataset of the interrupted search");
+}
 
 ExitCode run(const CamerasCommand& command) {
   CameraOptions job = command.job;
@@ -28,6 +38,7 @@ ExitCode run(const CamerasCommand& command) {
       throw UsageError(command.photographs + " has cameras; its points are written beside them",
                        "omit -o");
     job.dataset = job.photographs;
+    check_resume(command, job.dataset);
     const PointOutcome outcome = search_points(job);
     result = {{"photographs", outcome.photographs},
               {"points", outcome.points},
@@ -36,6 +47,7 @@ ExitCode run(const CamerasCommand& command) {
   } else {
     job.dataset = command.dataset;
     if (job.dataset.empty()) job.dataset = default_dataset(job.photographs);
+    check_resume(command, job.dataset);
     const CameraOutcome outcome = search_cameras(job);
     say("Next: tureen train " + job.dataset.string() + " -o scene.glb --method gaussians");
     result = to_json(outcome.quality);
@@ -79,6 +91,8 @@ do not determine the cameras, 5 interrupted, COLMAP failed, or the dataset canno
   add_camera_options(command, options->job);
   command.add_option("--threads N", options->job.threads,
                      "number of CPU threads; one per core by default", between(1, 1024));
+  command.add_flag("--resume", options->resume,
+                   "fail if no search for DATASET was interrupted; a search continues without it");
   command.add_flag("--json", options->json,
                    "print the result as one line of JSON to standard output");
   command.does([options] { return run(*options); });

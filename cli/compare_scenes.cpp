@@ -128,6 +128,9 @@ ExitCode compare_scenes(const SceneComparison& comparison) {
   const EvalSubject of_b{comparison.b, comparison.dataset, comparison.split, b.options};
   say_list("Reading " + comparison.dataset.path + ":", notes_of(dataset.remarks));
   say(describe(of_a, photographs) + ", on " + a.result.renderer);
+  const Quality& quality = b.options.plan.quality;
+  if (quality != a.options.plan.quality)
+    say("B stores another quality setting: " + describe(quality));
   say_table(comparison, a.result, b.result);
   Json json{{"a", to_json(of_a, a.result, {})}, {"b", to_json(of_b, b.result, {})}};
   if (!folder.empty()) {

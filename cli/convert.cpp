@@ -126,7 +126,8 @@ void check_output(const ConvertOptions& options) {
   if (fs::exists(output, error) && !options.force)
     throw UsageError(options.output + " exists",
                      options.output_is_argument && is_readable_scene(output)
-                         ? "-o OUT is missing if it is a second scene; --force replaces it"
+                         ? "to write one scene from all of them, add -o OUT.glb; to replace " +
+                               options.output + ", add --force"
                          : "choose another name, or replace it with --force");
 }
 

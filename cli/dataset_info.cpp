@@ -78,7 +78,7 @@ std::string lenses_text(const DatasetFacts& facts) {
   for (const auto& [count, what] :
        {std::pair{facts.pinhole, "without distortion"},
         std::pair{facts.distorted, "with distortion, to be removed"},
-        std::pair{facts.fisheye, "of a fisheye, to become pinhole images"}})
+        std::pair{facts.fisheye, "with a fisheye lens, to be turned into pinhole images"}})
     if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : "; ", count, what);
   return text;
 }

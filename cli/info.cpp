@@ -459,9 +459,14 @@ bool of_dataset(const InfoOptions& options) {
     return is_dataset(path) && !is_scene(path);
   });
   for (const std::string& path : paths)
-    if (is_photographs(path) && !is_scene(path))
+    if (is_photographs(path) && !is_scene(path)) {
+      const auto around = dataset_around(path);
       throw InputError({path}, "photographs or a video, without cameras",
-                       "tureen cameras " + shell_word(path) + " finds the cameras");
+                       (around ? "tureen info " + shell_word(around->string()) +
+                                     " prints the dataset around them; "
+                               : "") +
+                           "tureen cameras " + shell_word(path) + " finds the cameras");
+    }
   if (dataset == paths.end()) {
     if (options.plot.empty()) return false;
     for (const std::string& path : paths) require_there(path);

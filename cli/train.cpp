@@ -245,6 +245,15 @@ void set_presets(TrainOptions& options) {
   if (!fs::exists(files_of(job).checkpoint, ignored)) job.resume = false;
 }
 
+/// Throws InputError for a folder of photographs in a dataset: their cameras are there.
+void require_no_dataset_around(const std::string& photographs) {
+  if (const auto dataset = dataset_around(photographs))
+    throw InputError({photographs}, "photographs of the dataset around them, which has cameras",
+                     "tureen train " + shell_word(dataset->string()) +
+                         " uses these; tureen cameras " + shell_word(photographs) +
+                         " finds others");
+}
+
 /// Finds the cameras, unless an earlier run has, and makes the dataset that of the run. Prints the
 /// commands for which this one stands.
 void use_photographs(TrainOptions& options) {
@@ -280,6 +289,7 @@ ExitCode train(TrainOptions options) {
   take_from_the_run(options);
   if (options.print_config) return print_config(options);
   const bool finds_cameras = is_photographs(options.dataset.path);
+  if (finds_cameras) require_no_dataset_around(options.dataset.path);
   if (finds_cameras && !options.job.output.empty()) set_presets(options);
   outlive_readers();  // a closed pipe must not end hours of training
   const TrainingJob& job = options.job;

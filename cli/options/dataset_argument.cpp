@@ -11,19 +11,23 @@ namespace tureen::cli {
 
 namespace {
 
-/// Accepts numbers in (0, 1]; between() would include 0.
-std::string refuse_scale(const std::string& text) {
-  if (const auto scale = number_from(text); scale && *scale > 0 && *scale <= 1) return {};
-  return "a scale must be above 0 and at most 1, not " + text;
+/// Accepts numbers in (0, 1]; between() would include 0. Above 1, many mean the scene's size.
+std::string refuse_scale(const std::string& text, bool has_resize) {
+  const auto scale = number_from(text);
+  if (scale && *scale > 0 && *scale <= 1) return {};
+  return "a scale of photographs must be above 0 and at most 1, not " + text +
+         (scale && *scale > 1 && has_resize ? "; --resize " + text + " enlarges the scene" : "");
 }
 
 }  // namespace
 
 Option add_scale_option(Command& command, DatasetArgument& argument) {
-  return command.add_option("--scale FRACTION", argument.options.scale,
-                            "scale of the photographs, above 0 and at most 1 (default): 0.5 halves "
-                            "both sides, and each pixel is the mean of the pixels it covers",
-                            refuse_scale);
+  const bool has_resize = command.has_option("--resize");
+  return command.add_option(
+      "--scale FRACTION", argument.options.scale,
+      "scale of the photographs, above 0 and at most 1 (default): 0.5 halves "
+      "both sides, and each pixel is the mean of the pixels it covers",
+      [has_resize](const std::string& text) { return refuse_scale(text, has_resize); });
 }
 
 Option add_dataset_argument(Command& command, DatasetArgument& argument) {

@@ -18,7 +18,7 @@ struct DatasetArgument {
 /// required. `argument` must live until the arguments are parsed.
 Option add_dataset_argument(Command& command, DatasetArgument& argument);
 
-/// --scale alone.
+/// --scale alone. Its error names --resize if the command has that option already.
 Option add_scale_option(Command& command, DatasetArgument& argument);
 
 /// Side of the SSIM window in pixels; smaller images have no SSIM.

@@ -92,6 +92,9 @@ CameraPathData path_named(const std::string& text, const Scene& scene) {
     return path;
   }
   require_there(text);
+  if (is_scene(text))
+    throw InputError({text}, "a scene, not a camera path, which is a JSON file",
+                     "--path cameras flies along the recorded cameras of the scene that is drawn");
   return read_path(text);
 }
 

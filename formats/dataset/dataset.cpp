@@ -338,6 +338,14 @@ bool is_dataset(const fs::path& path) {
          path.filename().string().starts_with("transforms");
 }
 
+std::optional<fs::path> dataset_around(const fs::path& path) {
+  std::error_code ignored;
+  const fs::path here = fs::absolute(path, ignored).lexically_normal();
+  const fs::path above = (here.has_filename() ? here : here.parent_path()).parent_path();
+  if (!fs::is_directory(path, ignored) || !is_dataset(above)) return std::nullopt;
+  return above;
+}
+
 Dataset read_dataset(const fs::path& path, const DatasetOptions& given) {
   assert(given.scale > 0 && given.scale <= 1);
   assert(given.images_folder >= 1 && given.test_every >= 1);

@@ -85,4 +85,8 @@ DatasetSummary read_dataset_summary(const std::filesystem::path& path,
 /// with "transforms" and ends in ".json". Opens no file.
 bool is_dataset(const std::filesystem::path& path);
 
+/// The dataset directly above the folder `path`, as an absolute path; nullopt if there is none.
+/// Opens no file.
+std::optional<std::filesystem::path> dataset_around(const std::filesystem::path& path);
+
 }  // namespace tureen

@@ -273,17 +273,15 @@ DatasetOutline read_outline(const fs::path& path, const DatasetOptions& options,
   if (const auto models = colmap_folders(path); !models.empty())
     return colmap_outline(path, models, options, budget);
   if (const auto files = bundler_files(path)) return bundler_outline(path, *files, options, budget);
-  const fs::path above = fs::absolute(path).lexically_normal();
-  const fs::path parent = (above.has_filename() ? above : above.parent_path()).parent_path();
+  const auto around = dataset_around(path);
   throw InputError(
       {path.string()},
       "not a supported dataset: it has neither transforms_train.json nor transforms.json, nor "
       "COLMAP's cameras in sparse/0, sparse, colmap/sparse, undistorted/sparse, dense/sparse or "
       "the "
       "folder itself, nor Bundler's bundle.out",
-      is_dataset(parent)
-          ? "did you mean " + parent.string() + ", the dataset around it?"
-          : "pass the folder that contains them; docs/datasets.md lists what is read");
+      around ? "did you mean " + around->string() + ", the dataset around it?"
+             : "pass the folder that contains them; docs/datasets.md lists what is read");
 }
 
 }  // namespace tureen

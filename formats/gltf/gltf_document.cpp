@@ -22,6 +22,16 @@ constexpr std::array known_extensions = {"KHR_gaussian_splatting",     "KHR_mate
                                          "KHR_materials_transmission", "KHR_materials_unlit",
                                          "KHR_mesh_quantization",      "KHR_texture_transform"};
 
+/// Extensions that a file may require although they are not drawn: lights, and what refines a
+/// material whose core glTF describes. A remark names them.
+constexpr std::array refinements = {
+    "KHR_lights_punctual",       "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat",   "KHR_materials_diffuse_transmission",
+    "KHR_materials_dispersion",  "KHR_materials_emissive_strength",
+    "KHR_materials_iridescence", "KHR_materials_sheen",
+    "KHR_materials_specular",    "KHR_materials_variants",
+    "KHR_materials_volume"};
+
 /// Splats in an SPZ file: the extension, and the name that its draft and older writers also use.
 constexpr std::string_view spz_prefix = "KHR_gaussian_splatting_compression_spz";
 
@@ -32,7 +42,8 @@ constexpr std::string_view meshopt_extension = "EXT_meshopt_compression";
 std::string way_out(const std::string& extension) {
   if (extension.starts_with(spz_prefix))
     return "its splats are an SPZ file; tureen convert IN.glb OUT.glb converts it";
-  if (extension == "KHR_draco_mesh_compression" || extension == meshopt_extension)
+  if (extension == "KHR_draco_mesh_compression" || extension == "KHR_meshopt_compression" ||
+      extension == meshopt_extension)
     return "gltf-transform copy IN.glb OUT.glb decompresses it";
   if (extension == "KHR_texture_basisu")
     return "gltf-transform ktxdecompress IN.glb OUT.glb decompresses it";
@@ -104,7 +115,8 @@ GltfDocument::GltfDocument(Input& input, GlbContainer glb, std::filesystem::path
   if (const auto required = root.find("extensionsRequired"))
     for (std::size_t i = 0; i < required->size(); ++i) {
       const std::string& name = required->at(i).text();
-      if (!is_applied(name, decoders_))
+      if (!is_applied(name, decoders_) &&
+          std::find(refinements.begin(), refinements.end(), name) == refinements.end())
         required->at(i).fail("the file requires the extension " + name + ", which is not supported",
                              way_out(name));
     }
@@ -118,11 +130,16 @@ GltfDocument::GltfDocument(Input& input, GlbContainer glb, std::filesystem::path
 std::vector<std::string> GltfDocument::dropped_extensions() const {
   constexpr std::size_t most = 8;
   std::vector<std::string> names;
-  const auto used = root().find("extensionsUsed");
-  for (std::size_t i = 0; used && i < used->size() && names.size() < most; ++i) {
-    const std::string& name = used->at(i).text();
-    // Another remark names ours.
-    if (!is_applied(name, decoders_) && !name.starts_with("TUREEN_")) names.push_back(name);
+  // A required extension is a used one, but not every file lists it twice.
+  for (const char* key : {"extensionsUsed", "extensionsRequired"}) {
+    const auto list = root().find(key);
+    for (std::size_t i = 0; list && i < list->size() && names.size() < most; ++i) {
+      const std::string& name = list->at(i).text();
+      // Another remark names ours.
+      if (!is_applied(name, decoders_) && !name.starts_with("TUREEN_") &&
+          std::find(names.begin(), names.end(), name) == names.end())
+        names.push_back(name);
+    }
   }
   return names;
 }

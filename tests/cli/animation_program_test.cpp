@@ -189,6 +189,9 @@ TEST_F(Animation, ABadPathIsRefusedWithItsPlace) {
   const ChildResult missing = run({"render", "scene.off", "--path", "camera.json"});
   EXPECT_EQ(missing.exit_code, 3);
   EXPECT_THAT(missing.err, Names("camera.json"));
+  const ChildResult scene = run({"render", "scene.off", "--path", "scene.off"});
+  EXPECT_EQ(scene.exit_code, 3);
+  EXPECT_THAT(scene.err, Names("scene.off", "JSON file", "--path cameras"));
   write_path(100000);
   const ChildResult endless = run({"render", "scene.off", "--path", "path.json"});
   EXPECT_EQ(endless.exit_code, 2);

@@ -74,6 +74,10 @@ TEST_F(ConvertCompress, IsSmallAndSaysWhatItLost) {
   EXPECT_EQ(ply.exit_code, 2);
   EXPECT_THAT(ply.err, Names("--compress", ".glb", ".html", "compressed.ply"));
   EXPECT_EQ(run({"convert", "part.glb", "other.glb", "--max-error", "1"}).exit_code, 2);
+  const ChildResult scale = run({"convert", "part.glb", "other.glb", "--scale", "2"});
+  EXPECT_EQ(scale.exit_code, 2);
+  EXPECT_THAT(scale.err, HasSubstr("--resize 2 enlarges the scene"));
+  EXPECT_THAT(run({"eval", "part.glb", "none", "--scale", "2"}).err, Not(HasSubstr("--resize")));
 }
 
 // The target for compressed files (docs/compressed-files.md), without photographs; the whole

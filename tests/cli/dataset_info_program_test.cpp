@@ -42,7 +42,8 @@ TEST_F(DatasetInfo, PrintsWhatTheReaderUnderstood) {
       result.err,
       AllOf(HasSubstr("data: a dataset"), HasSubstr("3 to train on, 1 to test"),
             HasSubstr("16 x 12 (1), 20 x 12 (3)"),
-            HasSubstr("2 without distortion; 1 with distortion, to be removed; 1 of a fisheye"),
+            HasSubstr(
+                "2 without distortion; 1 with distortion, to be removed; 1 with a fisheye lens"),
             HasSubstr("(0, 4, 1) to (9, 4, 1)"), HasSubstr("(1, 2, 1) to (4, 6, 3)"),
             HasSubstr("The up axis is assumed to be z")));
   const auto json = nlohmann::ordered_json::parse(result.out);
@@ -81,6 +82,8 @@ TEST_F(DatasetInfo, NamesWhatIsWrong) {
   expect({"info", "data", "--up", "0,1,0"}, 2, "--json, -o and --max-memory");
   expect({"info", "data", "-o", "plot.png"}, 2, ".svg");
   expect({"info", "data", "-o", "nowhere/plot.svg"}, 5, "nowhere");
+  expect({"info", "data/images"}, 3, ("tureen info " + (folder / "data").string()).c_str());
+  expect({"info", "data/images/"}, 3, "tureen cameras data/images/ finds the cameras");
   std::filesystem::remove(folder / "data/images/2.png");
   expect({"info", "data"}, 0, "1 of 4 photographs was skipped (images/2.png): the file is missing");
   EXPECT_FALSE(exists("plot.svg"));

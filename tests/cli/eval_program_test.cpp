@@ -232,6 +232,11 @@ TEST_F(Eval, TwoScenesAreComparedOnTheSamePhotographs) {
   }
   EXPECT_EQ(run({"report", "report/compare.json", "-o", "again.html"}).exit_code, 0);
   EXPECT_THAT(result.err, Names("--scale 1", "one sample per pixel", "+0.00"));
+  ASSERT_EQ(run({"convert", example, "smooth.glb", "--supersample", "2"}).exit_code, 0);
+  arguments = same;
+  arguments[2] = "smooth.glb";
+  EXPECT_THAT(run(arguments).err,
+              Names("one sample per pixel", "B stores another", "2 x 2 samples"));
   // Each kind of input has its own options.
   const auto expect = [&](const std::vector<std::string>& words, int code, const auto&... values) {
     const ChildResult wrong = run(words);

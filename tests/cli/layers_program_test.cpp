@@ -155,11 +155,13 @@ TEST_F(LayersProgram, AGivenUpAxisIsNoAssumption) {
   EXPECT_THAT(run({"info", "fox.off", "--up", "0,1,0"}).err, Not(HasSubstr("stores no up axis")));
 }
 
-TEST_F(LayersProgram, ASecondSceneAsOutputReportsThatTheOptionIsMissing) {
-  expect_usage_error({"convert", "scene.off", "two.glb"}, "-o OUT is missing");
-  EXPECT_THAT(run({"convert", "scene.off", "-o", "two.glb"}).err, Not(HasSubstr("is missing")));
+TEST_F(LayersProgram, ASecondSceneAsOutputReportsBothWaysOut) {
+  expect_usage_error(
+      {"convert", "scene.off", "two.glb"},
+      "to write one scene from all of them, add -o OUT.glb; to replace two.glb, add");
+  EXPECT_THAT(run({"convert", "scene.off", "-o", "two.glb"}).err, Not(HasSubstr("one scene")));
   write("text.off", "no scene");
-  EXPECT_THAT(run({"convert", "scene.off", "text.off"}).err, Not(HasSubstr("is missing")));
+  EXPECT_THAT(run({"convert", "scene.off", "text.off"}).err, Not(HasSubstr("one scene")));
 }
 
 TEST_F(LayersProgram, HiddenLayersAreReported) {

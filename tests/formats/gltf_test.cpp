@@ -369,7 +369,9 @@ TEST_F(Gltf, ReadsCameras) {
 }
 
 TEST_F(Gltf, RefusesRequiredExtensionsByName) {
-  for (const char* name : {"KHR_draco_mesh_compression", "KHR_texture_basisu", "ACME_plaid"}) {
+  for (const char* name :
+       {"KHR_draco_mesh_compression", "KHR_meshopt_compression", "KHR_texture_basisu",
+        "KHR_materials_pbrSpecularGlossiness", "ACME_plaid"}) {
     GlbBuilder b;
     b.triangle();
     b.document["extensionsRequired"] = {name};
@@ -558,6 +560,22 @@ TEST_F(Gltf, ExtensionsThatAreNotDrawnAreNamed) {
                   &remarks::extensions_dropped,
                   {{"extensions",
                     std::vector<std::string>{"KHR_lights_punctual", "KHR_materials_clearcoat"}}}}));
+
+  // Files may also require them.
+  b.document.erase("extensionsUsed");
+  b.document["extensionsRequired"] = {"KHR_lights_punctual", "KHR_materials_unlit",
+                                      "KHR_materials_clearcoat"};
+  EXPECT_EQ(read_gltf_or_glb(save("lit.glb", b.glb())).info.remarks, scene.info.remarks);
+}
+
+TEST_F(Gltf, CompressedFilesNameTheCommandThatDecompresses) {
+  for (const char* name : {"KHR_draco_mesh_compression", "KHR_meshopt_compression"}) {
+    GlbBuilder b;
+    b.triangle();
+    b.document["extensionsRequired"] = {name};
+    EXPECT_THAT(refusal(b),
+                ErrorIn("scene.glb", name, "gltf-transform copy IN.glb OUT.glb decompresses it"));
+  }
 }
 
 TEST_F(Gltf, DispatchesOurOwnFiles) {

@@ -52,8 +52,8 @@ void comparison_panel(State& state) {
   if (comparison.result) {
     const Metrics& metrics = comparison.result->metrics;
     text("PSNR {:.2f} dB, SSIM {:.4f}", metrics.psnr_db, metrics.ssim);
-    aside(fmt::format("at the photograph's {} \u00d7 {} pixels", photograph->camera.width,
-                      photograph->camera.height));
+    aside(fmt::format("this view, {} \u00d7 {} pixels, {}", photograph->camera.width,
+                      photograph->camera.height, describe(state.source.document.quality)));
   } else if (comparison.show != Comparison::Show::off) {
     aside("comparing ..");
   }

@@ -98,7 +98,8 @@ void training_curves(const std::vector<TrainingRecord>& records) {
   fact("PSNR in dB", last_value(held_out, 2));
   const TrainingCurve psnr[] = {seen, held_out};
   draw_curves(2, psnr);
-  tip("blue: at most five held-out views; grey: the step's views");
+  tip("blue: held-out views, at most five, at the run's scale with one sample per pixel; grey: the "
+      "step's views");
 }
 
 std::string progress_words(const TrainingRecord& last, const std::optional<RunCommand>& command) {

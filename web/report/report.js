@@ -329,7 +329,7 @@ function showTrainings(entries) {
   const runs = entries.map(({ data }, i) => ({ name: names[i], data, last: data.at(-1), test: data.findLast((r) => known(r.test_psnr_db))?.test_psnr_db }));
   // The trainer measures at most five views while it trains (trainer/common/session.cpp).
   const heldOut = ([{ plan }]) => [`${plan ? Math.min(plan.test_views, 5) : 'some'} held-out views`, plan && `${plan.width} × ${plan.height}`,
-    plan?.input && `--scale ${plan.input.scale}`].filter(Boolean).join(', ');
+    plan?.input && `--scale ${plan.input.scale}`, 'one sample per pixel'].filter(Boolean).join(', ');
   const best = runs.reduce((a, b) => (b.test ?? -1) > (a.test ?? -1) ? b : a);
   const curve = (title, x, y, get, at) => plot(title, { x, y, linear: true, series: runs.map(({ name, data }) => ({ name, line: true, points: data.filter((r) => known(get(r))).map((r) => ({ x: at(r), y: get(r), name })) })) });
   const seconds = (r) => r.seconds, steps = (r) => r.step, primitives = (r) => r.triangles ?? r.splats;

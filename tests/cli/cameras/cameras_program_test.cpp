@@ -82,5 +82,28 @@ TEST_F(Photographs, AreTrainedByOneCommandThatContinuesAfterCtrlC) {
   EXPECT_FALSE(exists("calls"));
 }
 
+TEST_F(Photographs, InsideADatasetAreNotSearchedAgain) {
+  write("transforms.json", "{}");
+  const ChildResult result =
+      run(with_stand_in({"train", "my photos", "-o", "scene.glb", "--steps", "1"}));
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(result.err, testing::HasSubstr("tureen train " + folder.string() + " uses these"));
+  EXPECT_THAT(result.err, testing::HasSubstr("tureen cameras 'my photos' finds others"));
+  EXPECT_FALSE(exists("calls"));
+  EXPECT_FALSE(exists("scene.dataset"));
+}
+
+TEST_F(Photographs, ResumeContinuesASearchOnlyIfThereIsOne) {
+  const std::vector<std::string> command =
+      with_stand_in({"cameras", "my photos", "-o", "out", "--resume"});
+  const ChildResult nothing = run(command);
+  EXPECT_EQ(nothing.exit_code, 2);
+  EXPECT_THAT(nothing.err, testing::HasSubstr("out.work is missing"));
+  setenv("STAND_IN", "turning", 1);  // refused: its work stays
+  EXPECT_EQ(run(with_stand_in({"cameras", "my photos", "-o", "out"})).exit_code, 3);
+  EXPECT_EQ(run(command).exit_code, 3);
+  EXPECT_FALSE(exists("out"));
+}
+
 }  // namespace cameras_program_test
 }  // namespace tureen::test

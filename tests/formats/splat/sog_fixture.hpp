@@ -73,11 +73,11 @@ inline SogFiles two_splats(int version, bool has_palette = true) {
   return files;
 }
 
-/// Two levels, of four and two splats, and an environment of two.
-inline SogFiles streamed_splats() {
+/// Two levels, of four and two splats, and an environment of two; `version`: of their files.
+inline SogFiles streamed_splats(int version = 2) {
   SogFiles files;
   for (const char* folder : {"0_0", "0_1", "1_0", "env"})
-    for (const auto& [name, content] : two_splats(2, false))
+    for (const auto& [name, content] : two_splats(version, false))
       files.emplace_back(std::string(folder) + "/" + name, content);
   const auto range = [](int file) {
     return nlohmann::json{{"file", file}, {"offset", 0}, {"count", 2}};

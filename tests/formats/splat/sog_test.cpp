@@ -285,6 +285,31 @@ TEST(Sog, AnArchiveSurvivesDamage) {
   EXPECT_GT(survive_damage(bytes, read, Damage::one).refused, 100u);
 }
 
+/// Cuts and damages this file of the scene at every byte.
+void expect_file_survives(test::SogFiles files, const std::string& name) {
+  const auto file = std::find_if(files.begin(), files.end(),
+                                 [&](const auto& each) { return each.first == name; });
+  ASSERT_NE(file, files.end()) << name;
+  const std::string original = file->second;
+  const auto read = [&](std::span<const std::byte> damaged) {
+    file->second.assign(reinterpret_cast<const char*>(damaged.data()), damaged.size());
+    EXPECT_EQ(defect(only_splats(read_zip(zipped(files)))), std::nullopt);
+  };
+  EXPECT_NO_THROW(read(as_bytes(original)));
+  EXPECT_EQ(survive_truncation(as_bytes(original), read).read, 0u) << name;
+  EXPECT_GT(survive_damage(as_bytes(original), read).refused, 100u) << name;
+}
+
+TEST(Sog, MetaOfVersion1SurvivesDamageAtEveryByte) {
+  expect_file_survives(two_splats(1), "meta.json");
+}
+
+TEST(Sog, SmallFilesOfAStreamedSceneSurviveDamageAtEveryByte) {
+  // Version 1 has no codebooks, which would be most of the bytes.
+  for (const char* name : {"lod-meta.json", "0_1/meta.json", "env/meta.json", "env/means_u.webp"})
+    expect_file_survives(streamed_splats(1), name);
+}
+
 TEST(Codebook, KeepsFewValuesAndIsNearTheOptimumForMany) {
   std::vector<float> few;
   for (int i = 0; i < 1000; ++i) few.push_back(float(i % 250) * 0.37f);

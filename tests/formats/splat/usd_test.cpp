@@ -151,5 +151,20 @@ TEST(Usd, SurvivesDamage) {
   survive_damage(as_bytes(two_fields), read_bytes, Damage::one);
 }
 
+TEST(Usd, AnArchiveSurvivesDamageAtEveryByte) {
+  const TemporaryFolder folder;
+  const SplatKind kind{"", "3dgs", SplatKind::Kernel::gaussians};
+  write_scene(scene_of(random_splats(kind, 2, 0.1, 7)), folder / "a.usdz");
+  const std::vector<std::byte> bytes = Input::open(folder / "a.usdz").read_rest();
+  const auto read_bytes = [](std::span<const std::byte> damaged) {
+    for (const Layer& layer : read_usd(Input::memory("a.usdz", damaged)).layers) {
+      EXPECT_EQ(defect(layer), std::nullopt);
+      EXPECT_EQ(defect(std::get<Splats>(layer.primitives)), std::nullopt);
+    }
+  };
+  EXPECT_EQ(survive_truncation(bytes, read_bytes).read, 0u);
+  EXPECT_GT(survive_damage(bytes, read_bytes).refused, 100u);
+}
+
 }  // namespace usd_test
 }  // namespace tureen
