@@ -13,6 +13,7 @@
 #include "cli/convert_compress.hpp"
 #include "cli/files/scene_page.hpp"
 #include "cli/files/scratch.hpp"
+#include "cli/interrupt.hpp"
 #include "cli/options/edit_options.hpp"
 #include "cli/options/material_option.hpp"
 #include "cli/options/memory_option.hpp"
@@ -203,8 +204,12 @@ Json write(Scene scene, const ConvertOptions& options, const fs::path& file) {
   const std::vector<std::string> lost = write_scene(scene, file, options.writing);
   say_list("Lost in " + options.output + ":", lost);
   Json figures = figures_of(scene, lost);
-  if (!options.no_measure && is_quantised(file) && is_measurable(scene))
-    measure(scene, options, file, figures);
+  if (!options.no_measure && is_quantised(file) && is_measurable(scene)) try {
+      measure(scene, options, file, figures);
+    } catch (const Interrupted&) {
+      say("wrote " + options.output + "; interrupted before its loss was measured");
+      throw;
+    }
   return figures;
 }
 

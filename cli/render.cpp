@@ -226,6 +226,7 @@ void say_written(const WrittenImages& images, const Views& views) {
     say("wrote " + paths.front() + " to " + paths.back());
     return;
   }
+  if (views.frames_per_second > 0 && paths.size() == 1) return say("wrote " + paths.front());
   for (std::size_t i = 0; i < paths.size(); ++i)
     say("wrote " + paths[i] +
         (i < views.cameras.size() && i < images.ms.size()

@@ -186,7 +186,8 @@ void take_from_the_run(TrainOptions& options) {
     }
   }
   if (options.dataset.path.empty())
-    throw UsageError("DATASET is required", "--resume needs none, if the log of the run is there");
+    throw UsageError("DATASET is required",
+                     "only --resume finds it, in the run's log beside OUT, if that is still there");
 }
 
 /// With --minutes: chooses the size of the photographs, unless --scale does, and notes if the time

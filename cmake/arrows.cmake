@@ -82,7 +82,7 @@ set(arrows
 
   "viewer/input: base scene camera"
   "viewer/gui: base image scene runtime/gl runtime/passes viewer/input"
-  "viewer/files: base scene formats/* trainer/common viewer/input viewer/gui"
+  "viewer/files: base scene formats/* jobs/cameras trainer/common viewer/input viewer/gui"
   "viewer: base image scene camera formats/* tracing runtime/* trainer/common jobs/baseline jobs/cameras jobs/timing jobs/training viewer/*"
   "viewer/panels: base image scene camera formats/* runtime/plan trainer/common jobs/timing jobs/training viewer viewer/files viewer/gui viewer/input"
 

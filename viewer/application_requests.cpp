@@ -154,7 +154,10 @@ void Application::carry_out(const CancelJob& request) {
     if (state_.stage) keep_drawn_options();
   }
   const bool in_part = request.kind == JobKind::scene && shows_preview();
-  state_.note(in_part ? "Cancelled. The scene is shown only in part." : "Cancelled.");
+  state_.note(in_part                            ? "Cancelled. The scene is shown only in part."
+              : request.kind == JobKind::cameras ? "Cancelled. The next search for these cameras "
+                                                   "continues from here."
+                                                 : "Cancelled.");
 }
 
 void Application::carry_out(const ChooseDrawing& request) {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/decimal_text.hpp"
 #include "jobs/cameras/camera_run.hpp"
 #include "viewer/application.hpp"
 #include "viewer/names.hpp"
@@ -68,6 +69,8 @@ void Application::carry_out(const OfferTraining& request) {
     for (const TrainingMethodInfo* method : training_methods())
       if (method->name == std::string_view("gaussians")) choice.method = method;
     choice.values["minutes"] = "15";
+    const double scale = moderate_scale(state_.photographs->full.cameras);
+    choice.scale = scale < 1 ? short_decimal(scale, 4) : "";
   }
   state_.scene_to_train = new_trained_scene(state_.photographs->path).string();
   measure_training();

@@ -26,7 +26,7 @@ void debug_view_panel(State& state);
 void drawing_panel(State& state);
 /// Rows of the panel Drawing.
 void tracing_rows(State& state);
-/// " · ray tracing, 3 of 16 samples"; empty if no rays are being traced.
+/// " · ray tracing, 3 of 16 samples", " · ray-traced"; empty without rays.
 std::string tracing_text(const TracedView& traced);
 void comparison_panel(State& state);
 /// Buttons that train a scene from the photographs, and that close them.

@@ -133,7 +133,9 @@ void Worker::report(double fraction) {
     if (abandoned_) throw Abandoned{};
     // The waiting window redraws its progress bar only for whole percents.
     shown = static_cast<int>(running_->fraction * 100) == static_cast<int>(fraction * 100);
-    running_->fraction = std::clamp(fraction, 0.0, 1.0);
+    fraction = std::clamp(fraction, 0.0, 1.0);
+    if (fraction != running_->fraction) running_->moved = steady_seconds() - began_;
+    running_->fraction = fraction;
   }
   if (!shown) Window::wake();
 }
@@ -142,7 +144,10 @@ std::optional<double> seconds_left(const Worker::Status& status) {
   // Earlier, the forecast would jump: the first percents include opening files.
   constexpr double min_fraction = 0.03, min_seconds = 1;
   if (status.fraction < min_fraction || status.seconds < min_seconds) return {};
-  return status.seconds * (1 - status.fraction) / status.fraction;
+  // It counts down while the fraction stands still.
+  const double left = status.moved * (1 - status.fraction) / status.fraction;
+  const double waited = status.seconds - status.moved;
+  return waited <= left ? std::optional(left - waited) : std::nullopt;
 }
 
 }  // namespace tureen::viewer

@@ -65,6 +65,7 @@ class Worker {
     double fraction = 0;
     JobKind kind = JobKind::scene;
     double seconds = 0;  // since the job began
+    double moved = 0;    // the same when `fraction` last changed
   };
   /// The status of the running job; nullopt if there is none, or if it is abandoned.
   std::optional<Status> status() const;
@@ -95,7 +96,7 @@ class Worker {
 };
 
 /// Forecast for a job, in seconds, if its progress goes on as before; nullopt while too little is
-/// done for a forecast.
+/// done for a forecast, or if the next progress is overdue.
 std::optional<double> seconds_left(const Worker::Status& status);
 
 }  // namespace tureen::viewer

@@ -10,8 +10,10 @@
 #include "base/error.hpp"
 #include "base/output.hpp"
 #include "cli/files/camera_plot.hpp"
+#include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
+#include "jobs/training/photograph_size.hpp"
 
 namespace tureen::cli {
 
@@ -84,18 +86,23 @@ std::filesystem::path default_dataset(const std::filesystem::path& photographs) 
 }
 
 double scale_for_training(const std::filesystem::path& dataset) {
-  constexpr double most = 1000;
   const DatasetSummary summary = read_dataset_summary(dataset);
-  int longer = 1;
+  std::vector<Camera> cameras;
   for (const auto* views : {&summary.train, &summary.test})
-    for (const DatasetSummary::View& view : *views)
-      longer = std::max({longer, view.camera.width, view.camera.height});
-  return std::min(1.0, std::floor(1e4 * most / longer) / 1e4);
+    for (const DatasetSummary::View& view : *views) cameras.push_back(view.camera);
+  return moderate_scale(cameras);
 }
 
 CameraOutcome search_cameras(const CameraOptions& options) {
   Reported reported("cameras");
-  const CameraOutcome outcome = find_cameras(options, reported.events);
+  const CameraOutcome outcome = [&] {
+    try {
+      return find_cameras(options, reported.events);
+    } catch (const Interrupted&) {
+      say("the same command continues the search");
+      throw;
+    }
+  }();
   reported.clear();
   if (outcome.quality.registered > 0)
     say_list("Cameras of " + options.photographs.string() + ":", describe(outcome.quality));

@@ -13,8 +13,7 @@ void add_camera_options(Command& command, CameraOptions& options);
 /// NAME.dataset in the current folder, for photographs in the folder NAME or the video NAME.mp4.
 std::filesystem::path default_dataset(const std::filesystem::path& photographs);
 
-/// The scale at which the longer side of a dataset's largest photograph has at most 1,000 pixels:
-/// 1, or rounded down to four digits. Throws the errors of read_dataset_summary().
+/// moderate_scale() of a dataset's photographs. Throws the errors of read_dataset_summary().
 double scale_for_training(const std::filesystem::path& dataset);
 
 /// Finds the cameras, prints how good they are, and writes the dataset with its plot, cameras.svg.

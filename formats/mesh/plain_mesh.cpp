@@ -134,8 +134,8 @@ PlainMesh::PlainMesh(const Scene& scene, const std::string& format, const glm::v
   const Layer& layer = only_layer(scene);
   if (const auto* splats = std::get_if<Splats>(&layer.primitives)) {
     if (!std::holds_alternative<TriangleWindows>(splats->kernel))
-      throw UsageError(format + " holds triangles; this scene holds " +
-                       kernel_name(splats->kernel));
+      throw UsageError(format + " holds triangles; this scene holds " + kernel_name(splats->kernel),
+                       "write .glb or .ply, or another format of splats");
     OpaqueResult opaque = to_opaque(*splats);
     lost = described(opaque.remarks);
     own_ = std::move(opaque.soup);

@@ -101,8 +101,13 @@ void CameraWork::progress(const char* title, double forecast, double fraction) {
   // The ratio of real to forecast seconds is noise until a fiftieth is done.
   const double measured = measured_ + here;
   const double ratio = measured > 0.02 * total_ ? spent / measured : 1.0;
-  events_.progress(title, total_ > 0 ? (done_ + here) / total_ : 0.0,
-                   ratio * (total_ - done_ - here));
+  const double done = done_ + here, now = steady_seconds();
+  if (done > told_.done)
+    told_ = {.done = done,
+             .fraction = std::max(told_.fraction, total_ > 0 ? done / total_ : 0.0),
+             .left = ratio * (total_ - done),
+             .at = now};
+  events_.progress(title, told_.fraction, std::max(0.0, told_.left - (now - told_.at)));
 }
 
 int CameraWork::run_once(const std::string& name, const char* title, double forecast,

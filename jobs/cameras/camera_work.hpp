@@ -78,6 +78,11 @@ class CameraWork {
   double total_ = 0, done_ = 0;      // forecast seconds
   double measured_ = 0, spent_ = 0;  // forecast and real seconds of the work in this process
   double begun_ = 0;                 // the clock when the time in spent_ ended
+  /// The last forecast: from it on, the fraction never falls, and the time left counts down until
+  /// more is done.
+  struct {
+    double done = -1, fraction = 0, left = 0, at = 0;
+  } told_;
 };
 
 }  // namespace tureen

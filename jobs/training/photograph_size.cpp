@@ -101,6 +101,13 @@ FullPhotographs full_photographs(const std::vector<Photograph>& train) {
   return full;
 }
 
+double moderate_scale(std::span<const Camera> cameras) {
+  constexpr double most = 1000;
+  int longer = 1;
+  for (const Camera& camera : cameras) longer = std::max({longer, camera.width, camera.height});
+  return std::min(1.0, std::floor(1e4 * most / longer) / 1e4);
+}
+
 std::optional<TrainingForecast> forecast_of(const TrainingLength& length,
                                             std::optional<double> scale,
                                             const FullPhotographs& full,

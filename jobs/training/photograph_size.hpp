@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "formats/dataset/dataset.hpp"
 #include "jobs/training/training_method.hpp"
@@ -44,6 +45,10 @@ FullPhotographs full_photographs(const std::filesystem::path& dataset, DatasetOp
 /// The same for photographs that were read at full size; at least one.
 FullPhotographs full_photographs(const std::vector<Photograph>& train);
 
+/// The scale at which the longer side of the largest photograph has at most 1,000 pixels: 1, or
+/// rounded down to four digits. The default for photographs whose cameras COLMAP finds.
+double moderate_scale(std::span<const Camera> cameras);
+
 /// How long a training is: one of both.
 struct TrainingLength {
   double minutes = 0, steps = 0;
@@ -59,8 +64,8 @@ std::optional<TrainingForecast> forecast_of(const TrainingLength& length,
                                             const FullPhotographs& full,
                                             const TrainingMethodInfo& method,
                                             double seconds_per_pixel);
-/// A warning if `steps` are too few for a sharp scene: fewer than the photographs, or than a quarter
-/// of the number from which larger photographs pay (TrainingMethodInfo::least_steps).
+/// A warning if `steps` are too few for a sharp scene: fewer than the photographs, or than a
+/// quarter of the number from which larger photographs pay (TrainingMethodInfo::least_steps).
 std::optional<OwnFact> too_few_steps(double steps, const FullPhotographs& full,
                                      const TrainingMethodInfo& method);
 

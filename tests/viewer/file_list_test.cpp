@@ -25,6 +25,15 @@ TEST(FileList, HoldsFoldersFirstAndWhatCanBeShown) {
               testing::ElementsAre("z folder", "a.off", "b.glb", "c.ply", "transforms.json"));
 }
 
+TEST(FileList, NoticesPhotographs) {
+  const fs::path folder = fs::path(testing::TempDir()) / "photographs";
+  fs::create_directories(folder);
+  EXPECT_FALSE(list_files(folder).has_photographs);
+  std::ofstream(folder / "a.jpg") << "x";
+  EXPECT_TRUE(list_files(folder).has_photographs);
+  fs::remove_all(folder);
+}
+
 TEST(FileList, SaysWhatItCannotList) {
   const FileList list = list_files("/there/is/no/such/folder");
   EXPECT_TRUE(list.entries.empty());

@@ -44,6 +44,14 @@ TEST(TakeFrame, ADragBeginsWhereTheButtonWasPressed) {
   EXPECT_EQ(frames(events), (std::vector<Seen>{{10, true}, {30, false}, {50, false}}));
 }
 
+TEST(TakeFrame, AClickWaitsForWhatAKeyOpens) {
+  std::vector<Event> events{KeyChanged{Key::o, true}, KeyChanged{Key::o, false}, PointerMoved{1, 0},
+                            ButtonChanged{Button::left, true}};
+  EXPECT_EQ(take_frame(events).size(), 1u);
+  EXPECT_EQ(take_frame(events).size(), 2u);
+  EXPECT_EQ(take_frame(events).size(), 1u);
+}
+
 TEST(TakeFrame, MovesWithoutAButtonAreOneFrame) {
   std::vector<Event> events{PointerMoved{1, 0}, PointerMoved{2, 0}, Scrolled{0, 1}};
   EXPECT_EQ(take_frame(events).size(), 3u);

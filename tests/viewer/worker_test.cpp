@@ -134,7 +134,10 @@ TEST_F(WorkerTest, EndsWhileItWorks) {
 }
 
 TEST(Workers, ForecastTheTimeLeftOnceEnoughIsDone) {
-  EXPECT_EQ(seconds_left({.what = {}, .fraction = 0.25, .seconds = 10}), 30.0);
+  EXPECT_EQ(seconds_left({.what = {}, .fraction = 0.25, .seconds = 10, .moved = 10}), 30.0);
+  // It counts down until there is progress, or it is overdue.
+  EXPECT_EQ(seconds_left({.what = {}, .fraction = 0.25, .seconds = 30, .moved = 10}), 10.0);
+  EXPECT_EQ(seconds_left({.what = {}, .fraction = 0.25, .seconds = 41, .moved = 10}), std::nullopt);
   EXPECT_EQ(seconds_left({.what = {}, .fraction = 0.5, .seconds = 0.1}), std::nullopt);
   EXPECT_EQ(seconds_left({.what = {}, .fraction = 0, .seconds = 10}), std::nullopt);
 }

@@ -4,6 +4,7 @@
 
 #include "base/extension.hpp"
 #include "formats/scene_file.hpp"
+#include "jobs/cameras/camera_run.hpp"
 
 namespace tureen::viewer {
 
@@ -37,6 +38,7 @@ FileList list_files(const fs::path& folder) {
     list.entries.push_back({entry->path(), is_folder});
   }
   if (failed) list.trouble = failed.message();
+  list.has_photographs = is_photographs(folder);
   std::sort(list.entries.begin(), list.entries.end(), [](const FileEntry& a, const FileEntry& b) {
     return a.is_folder != b.is_folder ? a.is_folder : a.path.filename() < b.path.filename();
   });

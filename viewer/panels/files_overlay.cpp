@@ -55,7 +55,9 @@ fs::path entries(State& state) {
   const float rows_below = files.typed_trouble.empty() ? 2 : 4;
   ImGui::BeginChild("list", {0, -rows_below * ImGui::GetFrameHeightWithSpacing()}, true);
   if (!files.trouble.empty()) aside(files.trouble);
-  if (files.entries.empty() && files.trouble.empty())
+  if (files.has_photographs)
+    aside("This folder has photographs: \"Choose this folder\" opens them.");
+  else if (files.entries.empty() && files.trouble.empty())
     aside("This folder has no scenes, datasets or folders.");
   for (const FileEntry& entry : files.entries) {
     const std::string name = entry.path.filename().string() + (entry.is_folder ? "/" : "");
@@ -70,7 +72,7 @@ fs::path entries(State& state) {
   return next;
 }
 
-/// Opens the typed path, except a folder that is no scene and no dataset: then returns it.
+/// Opens the typed path, except a folder that only has others: then returns it.
 fs::path open_typed(State& state) {
   fs::path path = typed_path(state.files);
   std::error_code ignored;
@@ -78,7 +80,9 @@ fs::path open_typed(State& state) {
     state.files.typed_trouble = "There is no file or folder " + path.string() + ".";
     return {};
   }
-  if (fs::is_directory(path, ignored) && !is_dataset(path) && !is_scene(path)) return path;
+  if (fs::is_directory(path, ignored) && !is_dataset(path) && !is_scene(path) &&
+      !list_files(path).has_photographs)
+    return path;
   open(state, path);
   return {};
 }

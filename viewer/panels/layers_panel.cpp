@@ -173,7 +173,7 @@ void place_buttons(State& state, const DocumentLayer& layer) {
       "lowest corner, of splats the lowest center");
   ImGui::SameLine();
   if (button("Center", share_of_row(2))) state.edit(PlaceLayer{layer.id, in_the_middle(layer)});
-  tip("Moves the middle of the layer to the origin");
+  tip("Moves the middle of the layer to the origin. F shows the whole scene");
   ImGui::SameLine();
   const Layer* const read = state.source.as_read(layer);
   const Disabled disabled(!read || read->world_from_layer == layer.world_from_layer);

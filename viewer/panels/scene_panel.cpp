@@ -68,7 +68,7 @@ void box_facts(const Document& document) {
 /// Powers of 1000, as on the page: "9.4 MB", "151 MB".
 std::string megabytes(std::size_t bytes) {
   const double value = 1e-6 * double(bytes);
-  if (value < 0.05) return "less than 0.1 MB";  // where the processor draws
+  if (value < 0.05) return "less than 0.1 MB";
   return fmt::format("{:.{}f} MB", value, value < 9.95 ? 1 : 0);
 }
 
@@ -129,14 +129,17 @@ void fact_rows(const State& state) {
   const char* label = "Name";
   for (const std::filesystem::path& path : source.paths()) {
     const bool changed = *label != '\0' && !state.history.is_saved();
-    fact(std::exchange(label, ""), short_name(path) + (changed ? " (unsaved changes)" : ""));
-    tip(path.string());
+    fact(std::exchange(label, ""), short_name(path) + (changed ? " *" : ""));
+    tip(path.string() + (changed ? ", with unsaved changes" : ""));
   }
   if (!info.source.empty()) fact("Source", info.source);
   fact("Size", size_text(document));
   box_facts(document);
   fact("Appearance", appearances(document));
-  fact("GPU memory", megabytes(state.stage->renderer.device_bytes()));
+  const Renderer& renderer = state.stage->renderer;
+  fact("GPU memory", renderer.plan().splats_in_tiles && renderer.device_bytes() < 50'000
+                         ? "none: the processor draws the splats"
+                         : megabytes(renderer.device_bytes()));
   tip(fmt::format("read in {:.2f} s, prepared in {:.2f} s", source.read_seconds,
                   state.stage->prepare_seconds));
 }

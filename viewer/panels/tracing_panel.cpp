@@ -22,10 +22,11 @@ void tracing_rows(State& state) {
 }
 
 std::string tracing_text(const TracedView& traced) {
+  if (traced.is_complete) return " \u00b7 ray-traced";
   if (!traced.is_running) return {};
   if (traced.samples > 0)
     return fmt::format(" \u00b7 ray tracing, {} of {} samples", traced.samples, traced.wanted);
-  return fmt::format(" \u00b7 ray tracing, {:.0f} % sharp", 100 * traced.sharp);
+  return fmt::format(" \u00b7 ray tracing, {:.0f} %", 100 * traced.sharp);
 }
 
 void traced_overlay(const State& state) {

@@ -45,7 +45,8 @@ void size_field(TrainingChoice& choice) {
   const auto* const chosen = std::ranges::find(
       scales, choice.scale, [](const auto& each) { return std::string(each.first); });
   field("photographs");
-  if (ImGui::BeginCombo("##scale", chosen->second)) {
+  const std::string shown = chosen != std::end(scales) ? chosen->second : choice.scale;
+  if (ImGui::BeginCombo("##scale", shown.c_str())) {
     for (const auto& [scale, words] : scales)
       if (list_item(words, scale == choice.scale)) choice.scale = scale;
     ImGui::EndCombo();

@@ -88,7 +88,7 @@ void view_panel(State& state) {
   ImGui::SameLine();
   if (button("Keep as first view", share_of_row(1))) {
     state.edit(ChangeFirstView{controls.camera(state.pixels.x, state.pixels.y)});
-    state.note("This view is the first one, here and in the saved file.");
+    state.note("This view is now the first one. A saved .glb file keeps it.");
   }
   tip("Shows this view first, here and in the saved file");
   up_menu(state);
