@@ -162,6 +162,9 @@ mouse('debug views, with legends', async (page) => {
   await page.waitForFunction(() => location.hash.includes('look='));
   assert.ok(!colors.equals(await image(page)), 'another image');
   await page.evaluate(() => { document.getElementById('debug-view').closest('details').open = true; });
+  const looks = await page.locator('#debug-view option').evaluateAll((all) => all.map(({ value, disabled }) => `${value}${disabled}`));
+  assert.ok(looks.includes('normalsfalse'), looks.join());
+  assert.ok(!looks.some((look) => /opacity|order|true/.test(look)), `none of splats: ${looks}`);
   for (const look of ['depth', 'normals', 'overdraw', 'triangle-id']) {
     await page.selectOption('#debug-view', look);
     await page.waitForFunction((wanted) => location.hash.includes(`look=${wanted}`), look);

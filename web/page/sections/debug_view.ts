@@ -1,7 +1,7 @@
 // The debug view instead of the final colours, and its legend.
 
-import type { Viewer } from '../../viewer/types.js';
-import { block, fillSentences, input, make, select } from '../../common/dom.js';
+import type { DebugViewChoice, Viewer } from '../../viewer/types.js';
+import { block, input, make, select } from '../../common/dom.js';
 import { hexColor } from '../../common/numbers.js';
 
 export class DebugViewSection {
@@ -32,7 +32,7 @@ export class DebugViewSection {
 
   /** Selects the next debug view that the scene supports. */
   next(): void {
-    const there = (this.viewer.scene?.debugViews ?? []).filter((choice) => choice.missing === null);
+    const there = this.supported();
     if (there.length === 0) return;
     const now = there.findIndex((choice) => choice.name === this.viewer.debugView);
     void this.show(there[(now + 1) % there.length]!.name);
@@ -51,12 +51,14 @@ export class DebugViewSection {
   }
 
   private fill(): void {
-    const choices = this.viewer.scene?.debugViews ?? [];
+    const choices = this.supported();
     this.list.disabled = choices.length === 0;
-    this.list.replaceChildren(...choices.map(({ name, title, missing }) =>
-      make('option', { value: name, disabled: missing !== null }, title)));
-    fillSentences(block('missing-debug-views'), choices.flatMap(({ missing }) => missing ?? []));
+    this.list.replaceChildren(...choices.map(({ name, title }) => make('option', { value: name }, title)));
     this.update();
+  }
+
+  private supported(): readonly DebugViewChoice[] {
+    return (this.viewer.scene?.debugViews ?? []).filter(({ missing }) => missing === null);
   }
 
   private fillLegend(title: string): void {
