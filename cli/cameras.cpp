@@ -19,7 +19,7 @@ struct CamerasCommand {
   bool resume = false;
 };
 
-/// With --resume: throws UsageError if no search was interrupted.
+/// With --resume: throws UsageError if DATASET.work is missing.
 void check_resume(const CamerasCommand& command, const std::filesystem::path& dataset) {
   std::error_code ignored;
   const std::filesystem::path work = camera_work_folder(dataset);
@@ -91,8 +91,9 @@ do not determine the cameras, 5 interrupted, COLMAP failed, or the dataset canno
   add_camera_options(command, options->job);
   command.add_option("--threads N", options->job.threads,
                      "number of CPU threads; one per core by default", between(1, 1024));
-  command.add_flag("--resume", options->resume,
-                   "fail if no search for DATASET was interrupted; a search continues without it");
+  command.add_flag(
+      "--resume", options->resume,
+      "fail if DATASET.work is missing; without this option, too, a search continues there");
   command.add_flag("--json", options->json,
                    "print the result as one line of JSON to standard output");
   command.does([options] { return run(*options); });

@@ -204,12 +204,14 @@ Json write(Scene scene, const ConvertOptions& options, const fs::path& file) {
   const std::vector<std::string> lost = write_scene(scene, file, options.writing);
   say_list("Lost in " + options.output + ":", lost);
   Json figures = figures_of(scene, lost);
-  if (!options.no_measure && is_quantised(file) && is_measurable(scene)) try {
-      measure(scene, options, file, figures);
-    } catch (const Interrupted&) {
+  if (options.no_measure || !is_quantised(file) || !is_measurable(scene)) return figures;
+  try {
+    measure(scene, options, file, figures);
+  } catch (const Interrupted&) {
+    if (file == options.output)
       say("wrote " + options.output + "; interrupted before its loss was measured");
-      throw;
-    }
+    throw;
+  }
   return figures;
 }
 

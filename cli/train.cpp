@@ -187,7 +187,7 @@ void take_from_the_run(TrainOptions& options) {
   }
   if (options.dataset.path.empty())
     throw UsageError("DATASET is required",
-                     "only --resume finds it, in the run's log beside OUT, if that is still there");
+                     "pass it; --resume reads it from the log beside OUT, if that exists");
 }
 
 /// With --minutes: chooses the size of the photographs, unless --scale does, and notes if the time
@@ -249,10 +249,10 @@ void set_presets(TrainOptions& options) {
 /// Throws InputError for a folder of photographs in a dataset: their cameras are there.
 void require_no_dataset_around(const std::string& photographs) {
   if (const auto dataset = dataset_around(photographs))
-    throw InputError({photographs}, "photographs of the dataset around them, which has cameras",
+    throw InputError({photographs}, "the folder around these photographs is a dataset with cameras",
                      "tureen train " + shell_word(dataset->string()) +
-                         " uses these; tureen cameras " + shell_word(photographs) +
-                         " finds others");
+                         " trains from it; tureen cameras " + shell_word(photographs) +
+                         " finds cameras for these photographs");
 }
 
 /// Finds the cameras, unless an earlier run has, and makes the dataset that of the run. Prints the

@@ -11,24 +11,21 @@
 
 namespace tureen {
 
-namespace {
-
 // A page lacks the libraries: zlib, zstd, meshoptimizer.
 #ifdef __EMSCRIPTEN__
-constexpr GltfDecoders decoders;
+const GltfDecoders gltf_decoders;
 #else
-constexpr GltfDecoders decoders{.spz = read_spz, .meshopt = decode_meshopt};
+const GltfDecoders gltf_decoders{.spz = read_spz, .meshopt = decode_meshopt};
 #endif
 
-}  // namespace
-
-Scene read_gltf_or_glb(const std::filesystem::path& path, const ReadOptions& options) {
+Scene read_gltf_or_glb(const std::filesystem::path& path, const ReadOptions& options,
+                       const GltfDecoders& decoders) {
   Input input = Input::open(path);
-  return read_gltf_or_glb(input, path.parent_path(), options);
+  return read_gltf_or_glb(input, path.parent_path(), options, decoders);
 }
 
 Scene read_gltf_or_glb(Input& input, const std::filesystem::path& folder,
-                       const ReadOptions& options) {
+                       const ReadOptions& options, const GltfDecoders& decoders) {
   const bool binary = is_glb(input);
   GlbContainer glb = binary ? read_glb_container(input) : read_gltf_json(input);
   const bool ours = is_tureen_glb(glb);

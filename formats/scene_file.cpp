@@ -97,6 +97,21 @@ std::vector<std::string> write_chosen_spz(const Scene& scene, const std::filesys
 }
 #endif
 
+Scene read_any_gltf(const std::filesystem::path& path, const ReadOptions& options) {
+#if defined(TUREEN_FEW_FORMATS)
+  const ReadSpz spz = [](Input& input, const ReadOptions&) -> Scene {
+    throw ReadElsewhere({input.name()},
+                        "this page does not read SPZ in glTF; convert it to GLB: "
+                        "tureen convert FILE.glb OUT.glb");
+  };
+  return read_gltf_or_glb(path, options, {.spz = spz});
+#elif defined(__EMSCRIPTEN__)
+  return read_gltf_or_glb(path, options, {.spz = read_spz});
+#else
+  return read_gltf_or_glb(path, options);
+#endif
+}
+
 glm::vec3 up_of_splats(const Scene&) { return splat_up; }
 
 /// In the order of recognition: the first format that recognises a file reads it.
@@ -108,7 +123,7 @@ const std::vector<Format>& formats() {
        .read_extensions = {".glb", ".gltf"},
        .written_extensions = {".glb"},
        .recognises = [](const Candidate& c) { return !c.is_folder && is_gltf(c.head); },
-       .read = read_gltf_or_glb,
+       .read = read_any_gltf,
        .write = write_glb,
        .holds_layers = true},
       {.name = "OFF",

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/error.hpp"
 #include "formats/read_options.hpp"
 #include "scene/scene.hpp"
 
@@ -15,6 +16,11 @@ namespace tureen {
 
 /// Whether a reader recognises the content. Throws InputError if the path cannot be opened.
 bool is_scene(const std::filesystem::path& path);
+
+/// Thrown by the page's own program: its second one reads the file.
+struct ReadElsewhere : InputError {
+  using InputError::InputError;
+};
 
 /// Reads any scene of known_formats(). The scene has triangles or splats, and no defect(). Throws
 /// InputError.

@@ -143,6 +143,7 @@ class Application {
   struct Loading {
     Relation relation = Relation::other;
     std::vector<std::filesystem::path> paths;
+    std::optional<ChooseLevel> level = {};  // with Relation::changed
   };
   /// The progress and the errors of a Loading; each has its own.
   struct Reading {
@@ -154,6 +155,7 @@ class Application {
     std::vector<Failure> failures;  // of files that are not shown
   };
   void load(const Loading& loading);
+  void reload(std::optional<ChooseLevel> level = {});
   Worker::Completion load_in_background(const Loading& loading,
                                         const std::shared_ptr<SceneSource>& before,
                                         const StageRequest& request,

@@ -71,7 +71,9 @@ Worker::Completion Application::load_in_background(const Loading& loading,
             files->failures.push_back({path, reason});
           },
       .max_splats = options_.max_splats,
-      .lod = options_.lod};
+      .lod = options_.lod,
+      .level = loading.level ? std::optional(std::pair(loading.level->file, loading.level->level))
+                             : std::nullopt};
   const StageRequest preparing{request.context, request.choice, [&](double done) {
                                  request.progress(reading_share + (1 - reading_share) * done);
                                }};

@@ -76,18 +76,15 @@ void Application::carry_out(const AddPaths& request) {
   if (has_scenes) load(loading);
 }
 
-void Application::carry_out(const ReloadScene&) {
+void Application::carry_out(const ReloadScene&) { reload(); }
+void Application::carry_out(const ChooseLevel& request) { reload(request); }
+
+void Application::reload(std::optional<ChooseLevel> level) {
   if (!state_.stage) return;
-  Loading loading{.relation = Relation::changed, .paths = {}};
+  Loading loading{.relation = Relation::changed, .paths = {}, .level = level};
   // A new job replaces the running one, so it also adds that one's files.
   if (loading_ && loading_->relation != Relation::other) loading.paths = loading_->paths;
   load(loading);
-}
-
-void Application::carry_out(const ChooseLevel& request) {
-  if (!state_.stage || request.file >= state_.source.files.size()) return;
-  state_.source.files[request.file].lod = request.level;
-  carry_out(ReloadScene{});
 }
 
 void Application::carry_out(const OpenPhotographs& request) {

@@ -116,7 +116,9 @@ void add_arguments(CLI::App& program, Arguments& arguments) {
       ->option_text("N");
   program
       .add_option("--lod", options.lod,
-                  "level of detail to read from a streamed scene; 0 is the finest")
+                  "level of detail to read from a streamed scene; 0 is the finest. By default, "
+                  "the finest that fits")
+      ->check(CLI::Range(0, 63))
       ->option_text("N");
   program.add_flag("--no-settings", arguments.no_settings, "do not load or save settings");
   program.add_flag(

@@ -65,7 +65,7 @@ class Worker {
     double fraction = 0;
     JobKind kind = JobKind::scene;
     double seconds = 0;  // since the job began
-    double moved = 0;    // the same when `fraction` last changed
+    double moved = 0;    // from then to the last change of `fraction`
   };
   /// The status of the running job; nullopt if there is none, or if it is abandoned.
   std::optional<Status> status() const;

@@ -131,7 +131,7 @@ std::vector<std::string> GltfDocument::dropped_extensions() const {
   constexpr std::size_t most = 8;
   std::vector<std::string> names;
   // A required extension is a used one, but not every file lists it twice.
-  for (const char* key : {"extensionsUsed", "extensionsRequired"}) {
+  for (const char* key : {"extensionsRequired", "extensionsUsed"}) {
     const auto list = root().find(key);
     for (std::size_t i = 0; list && i < list->size() && names.size() < most; ++i) {
       const std::string& name = list->at(i).text();

@@ -108,9 +108,10 @@ class SogReader {
         files_.input().fail("there is no level " + std::to_string(*options_.lod),
                             "the scene has the levels 0 to " + std::to_string(last));
       std::vector<SogPart> parts = parts_of(levels, *options_.lod);
-      chosen =
-          Remark{&remarks::level_read,
-                 {{"levels", last + 1}, {"level", *options_.lod}, {"splats", total_count(parts)}}};
+      if (last > 0)
+        chosen = Remark{
+            &remarks::level_read,
+            {{"levels", last + 1}, {"level", *options_.lod}, {"splats", total_count(parts)}}};
       return parts;
     }
     std::uint64_t finest = 0;

@@ -105,6 +105,16 @@ std::string text_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
+/// The literals of a TypeScript source, without its comments.
+std::vector<std::string> script_literals_of(const std::string& text) {
+  static const std::regex piece(
+      R"(//[^\n]*|/\*[^*]*(?:\*(?!/)[^*]*)*\*/|(['"`])((?:(?!\1)[^\\]|\\.)*)\1)");
+  std::vector<std::string> literals;
+  for (std::sregex_iterator at(text.begin(), text.end(), piece), end; at != end; ++at)
+    literals.push_back(at->str(2));
+  return literals;
+}
+
 std::vector<std::string> matches(const std::string& text, const std::regex& pattern, int group) {
   std::vector<std::string> found;
   for (std::sregex_iterator at(text.begin(), text.end(), pattern), end; at != end; ++at)
@@ -128,13 +138,19 @@ TEST(Messages, NameOptionsAndCommandsThatExist) {
   // Formats of results that are named after their source.
   const std::set<std::string> formats{"web", "measurements"};
   std::size_t checked = 0;
+  known.insert("--sheet");  // a variable of the page's style
   for (const char* module : {"base", "image", "scene", "camera", "formats", "splatting", "runtime",
-                             "trainer", "jobs", "cli", "viewer"})
+                             "trainer", "jobs", "cli", "viewer", "web/bench", "web/common",
+                             "web/engine", "web/page", "web/report", "web/viewer"})
     for (const auto& entry : std::filesystem::recursive_directory_iterator(root / module)) {
       const std::string extension = entry.path().extension().string();
-      if (extension != ".cpp" && extension != ".hpp") continue;
+      const bool is_page = extension == ".html", is_script = extension == ".ts";
+      if (extension != ".cpp" && extension != ".hpp" && !is_page && !is_script) continue;
       if (entry.path().filename() == "colmap_stages.cpp") continue;  // the options of COLMAP
-      for (const std::string& literal : literals_of(text_of(entry.path()))) {
+      const std::string text = text_of(entry.path());
+      for (const std::string& literal : is_page     ? std::vector<std::string>{text}
+                                        : is_script ? script_literals_of(text)
+                                                    : literals_of(text)) {
         for (const std::string& option : matches(literal, option_pattern, 0)) {
           EXPECT_TRUE(known.contains(option)) << entry.path() << ": " << option;
           ++checked;

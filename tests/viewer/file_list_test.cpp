@@ -27,6 +27,7 @@ TEST(FileList, HoldsFoldersFirstAndWhatCanBeShown) {
 
 TEST(FileList, NoticesPhotographs) {
   const fs::path folder = fs::path(testing::TempDir()) / "photographs";
+  fs::remove_all(folder);
   fs::create_directories(folder);
   EXPECT_FALSE(list_files(folder).has_photographs);
   std::ofstream(folder / "a.jpg") << "x";

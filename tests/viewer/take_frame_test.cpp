@@ -52,6 +52,11 @@ TEST(TakeFrame, AClickWaitsForWhatAKeyOpens) {
   EXPECT_EQ(take_frame(events).size(), 1u);
 }
 
+TEST(TakeFrame, ADragEndsBeforeItsKeyIsReleased) {
+  std::vector<Event> events{ButtonChanged{Button::left, false}, KeyChanged{Key::control, false}};
+  EXPECT_EQ(take_frame(events).size(), 1u);
+}
+
 TEST(TakeFrame, MovesWithoutAButtonAreOneFrame) {
   std::vector<Event> events{PointerMoved{1, 0}, PointerMoved{2, 0}, Scrolled{0, 1}};
   EXPECT_EQ(take_frame(events).size(), 3u);

@@ -92,6 +92,23 @@ test('each format has the image that its conversion by the program has', (contex
     await load(folder, ['three.spz']);
     assert.deepEqual(await image(wanted), expected);
   });
+  await context.test('SPZ in glTF, which the first program hands on', async () => {
+    const spz = readFileSync(file('read.spz')), splatting = 'KHR_gaussian_splatting', packed = `${splatting}_compression_spz_2`;
+    const inner = { [packed]: { bufferView: 0 } }, method = { kernel: 'ellipse', colorSpace: 'srgb_rec709_display' };
+    const primitive = { mode: 0, attributes: {}, extensions: { [splatting]: { ...method, extensions: inner } } };
+    writeFileSync(file('inside.gltf'), JSON.stringify({
+      asset: { version: '2.0' }, extensionsUsed: [splatting, packed], extensionsRequired: [splatting, packed],
+      scene: 0, scenes: [{ nodes: [0] }], nodes: [{ mesh: 0 }], meshes: [{ primitives: [primitive] }],
+      bufferViews: [{ buffer: 0, byteLength: spz.length }],
+      buffers: [{ byteLength: spz.length, uri: `data:application/octet-stream;base64,${spz.toString('base64')}` }],
+    }));
+    convert('inside.gltf', 'inside.glb');
+    await load(folder, ['inside.glb']);
+    const expected = await image(wanted);
+    await load(folder, ['inside.gltf']);
+    assert.deepEqual(await image(wanted), expected);
+    assert.equal(await page.evaluate(() => viewer.scene.splats), 1000);
+  });
   await context.test('a name without its extension', async () => {
     writeFileSync(file('unnamed'), readFileSync(file('read.spz')));
     await load(folder, ['read.spz']);
@@ -222,7 +239,7 @@ test('files of a scene: few at once, none after an error, no more than the memor
 
 test('a streamed SOG by its address, and another level', () => visit('?scene=streamed/lod-meta.json', async (page) => {
   await sceneShown(page, 'streamed');
-  assert.match(await page.textContent('#facts'), /1,000 splats/);
+  assert.match(await page.textContent('#facts'), /1,000 splats.*GPU memorynone: the processor draws the splats/);
   const before = await page.evaluate(() => location.hash);
   await page.selectOption('#detail', { index: 1 });
   await page.waitForFunction(() => document.getElementById('facts').textContent.includes('300 splats'));
@@ -355,13 +372,13 @@ test('the list of names has every extension that the program reads', () => {
 });
 
 test('what only the program reads has an error that names it', (context) => visit('', async (page) => {
-  const gltf = { asset: { version: '2.0' }, extensionsRequired: ['KHR_gaussian_splatting_compression_spz_2'] };
-  const cases = { 'mesh.obj': 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n', 'spz.gltf': JSON.stringify(gltf) };
+  const gltf = { asset: { version: '2.0' }, extensionsRequired: ['EXT_meshopt_compression'] };
+  const cases = { 'mesh.obj': 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n', 'packed.gltf': JSON.stringify(gltf) };
   await each(context, Object.entries(cases).map(([name, content]) => [name, async () => {
     writeFileSync(file(name), content);
     await page.evaluate(() => document.querySelector('#errors').replaceChildren());
     await pick(page, file(name));
-    assert.match(await errorShown(page), /MobileNeRF|spz_2/);
+    assert.match(await errorShown(page), /MobileNeRF|EXT_meshopt/);
   }]));
 }));
 

@@ -97,6 +97,14 @@ test('a folder that is picked', () => visit('', async (page) => {
   await pick(page, diffsoup, '#choose-folder');
   await sceneShown(page, 'bowl');
   assert.match(await page.textContent('#facts'), /7,000 triangles/);
+  const number = String.raw`-?[\d.]+(?:e[-+]\d+)?`, three = (between) => Array(3).fill(`(${number})`).join(between);
+  const facts = new RegExp(`Extent${three(' × ')}Box${three(', ')} to ${three(', ')}Appearance.*GPU memory[\\d.]+`);
+  const [, ...values] = facts.exec(await page.textContent('#facts')) ?? assert.fail(await page.textContent('#facts'));
+  // Each has four digits, so a difference has the error of three roundings.
+  for (let axis = 0; axis < 3; ++axis) {
+    const [extent, low, high] = [0, 3, 6].map((at) => Number(values[at + axis]));
+    assert.ok(extent > 0 && Math.abs(high - low - extent) <= 5e-4 * (Math.abs(high) + Math.abs(low) + extent), String(values));
+  }
 }));
 
 test('a link without an up direction takes the scene\'s', () => visit('?scene=soup.glb#eye=4,-6,3&target=0,0,0', async (page) => {

@@ -38,7 +38,9 @@ FileList list_files(const fs::path& folder) {
     list.entries.push_back({entry->path(), is_folder});
   }
   if (failed) list.trouble = failed.message();
-  list.has_photographs = is_photographs(folder);
+  const auto is_folder = [](const FileEntry& entry) { return entry.is_folder; };
+  list.has_photographs =
+      std::all_of(list.entries.begin(), list.entries.end(), is_folder) && is_photographs(folder);
   std::sort(list.entries.begin(), list.entries.end(), [](const FileEntry& a, const FileEntry& b) {
     return a.is_folder != b.is_folder ? a.is_folder : a.path.filename() < b.path.filename();
   });

@@ -16,7 +16,7 @@ struct FileList {
   std::filesystem::path folder;    // empty: none yet
   std::vector<FileEntry> entries;  // folders first, by name; without hidden ones
   bool cut = false;                // the folder has more
-  bool has_photographs = false;    // without cameras
+  bool has_photographs = false;    // and neither scenes nor cameras
   std::string trouble;             // error of listing it; empty if none
   std::string typed;               // text in the field for paths
   std::string typed_trouble;       // why that path cannot be opened; empty if it can

@@ -113,7 +113,8 @@ Gui::~Gui() = default;
 void Gui::feed(const Event& event) { std::visit(Feeder{ImGui::GetIO()}, event); }
 
 bool Gui::takes_pointer() const { return ImGui::GetIO().WantCaptureMouse; }
-// WantTextInput lasts a frame longer than the field: Enter and Ctrl+Q may come with long frames.
+// WantTextInput stays set for one frame after a field closes; a shortcut in that frame would be
+// lost.
 bool Gui::takes_keys() const { return ImGui::GetIO().WantTextInput && ImGui::IsAnyItemActive(); }
 
 void Gui::begin(const Frame& frame) {

@@ -14,7 +14,7 @@ std::vector<Event> take_frame(std::vector<Event>& pending) {
     const auto* button = std::get_if<ButtonChanged>(&*end);
     if (key && !keys.insert(key->key).second) break;
     if (button && !buttons.insert(button->button).second) break;
-    if (button && !keys.empty()) break;
+    if ((button && !keys.empty()) || (key && !buttons.empty())) break;
     if (!buttons.empty() && std::holds_alternative<PointerMoved>(*end)) break;
     // The control may move until the next frame.
     if (end != pending.begin() && std::holds_alternative<ControlClicked>(*end)) break;

@@ -72,7 +72,8 @@ fs::path entries(State& state) {
   return next;
 }
 
-/// Opens the typed path, except a folder that only has others: then returns it.
+/// Opens the typed path, except a folder that is no scene and no dataset, and has no photographs:
+/// then returns it.
 fs::path open_typed(State& state) {
   fs::path path = typed_path(state.files);
   std::error_code ignored;

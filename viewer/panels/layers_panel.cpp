@@ -169,8 +169,8 @@ void gizmo_rows(GizmoState& gizmo) {
 void place_buttons(State& state, const DocumentLayer& layer) {
   if (button("Set on the ground", std::floor(0.42f * ImGui::GetContentRegionAvail().x)))
     state.edit(PlaceLayer{layer.id, on_the_ground(layer, state.controls.up())});
-  tip("Moves the layer along the up axis until its lowest point is at height 0: of triangles the "
-      "lowest corner, of splats the lowest center");
+  tip("Moves the layer along the up axis until its lowest point is at height 0: the lowest "
+      "corner of triangles, the lowest centre of splats");
   ImGui::SameLine();
   if (button("Center", share_of_row(2))) state.edit(PlaceLayer{layer.id, in_the_middle(layer)});
   tip("Moves the middle of the layer to the origin. F shows the whole scene");

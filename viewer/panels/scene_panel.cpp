@@ -65,10 +65,13 @@ void box_facts(const Document& document) {
   tip("Lowest and highest corner: x, y, z");
 }
 
+/// Fewer would be rounded to 0.0 MB.
+constexpr std::size_t shown_bytes = 50'000;
+
 /// Powers of 1000, as on the page: "9.4 MB", "151 MB".
 std::string megabytes(std::size_t bytes) {
   const double value = 1e-6 * double(bytes);
-  if (value < 0.05) return "less than 0.1 MB";
+  if (bytes < shown_bytes) return "less than 0.1 MB";
   return fmt::format("{:.{}f} MB", value, value < 9.95 ? 1 : 0);
 }
 
@@ -137,7 +140,7 @@ void fact_rows(const State& state) {
   box_facts(document);
   fact("Appearance", appearances(document));
   const Renderer& renderer = state.stage->renderer;
-  fact("GPU memory", renderer.plan().splats_in_tiles && renderer.device_bytes() < 50'000
+  fact("GPU memory", renderer.plan().splats_in_tiles && renderer.device_bytes() < shown_bytes
                          ? "none: the processor draws the splats"
                          : megabytes(renderer.device_bytes()));
   tip(fmt::format("read in {:.2f} s, prepared in {:.2f} s", source.read_seconds,

@@ -47,6 +47,7 @@ void size_field(TrainingChoice& choice) {
   field("photographs");
   const std::string shown = chosen != std::end(scales) ? chosen->second : choice.scale;
   if (ImGui::BeginCombo("##scale", shown.c_str())) {
+    if (chosen == std::end(scales)) list_item(shown, true);
     for (const auto& [scale, words] : scales)
       if (list_item(words, scale == choice.scale)) choice.scale = scale;
     ImGui::EndCombo();

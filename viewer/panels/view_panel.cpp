@@ -90,7 +90,7 @@ void view_panel(State& state) {
     state.edit(ChangeFirstView{controls.camera(state.pixels.x, state.pixels.y)});
     state.note("This view is now the first one. A saved .glb file keeps it.");
   }
-  tip("Shows this view first, here and in the saved file");
+  tip("Shows this view first, here and in a saved .glb file");
   up_menu(state);
   auto fov = static_cast<float>(controls.fov() * degrees_per_radian);
   field("Angle");

@@ -139,7 +139,7 @@ SceneSource read_again(const SceneSource& before, const ReadRequest& request) {
     request.begins(file.path);
     ReadOptions options =
         options_of(request, [&](double done) { request.progress((finished + done) / total); });
-    options.lod = file.lod;
+    options.lod = request.level && request.level->first == i ? request.level->second : file.lod;
     append_file(source, file.path, options);
     take_ids(source, i, before);
     finished += 1;

@@ -148,7 +148,7 @@ Saved save_scene(const SceneSource& source, const fs::path& file, bool accepts_l
   }
   Scene header = header_of(source);
   if (!is_glb_name(file)) header.layers.clear();
-  std::erase_if(header.info.remarks, names_levels);  // the file has one
+  std::erase_if(header.info.remarks, names_levels);  // the saved file has none to choose
   saved.file = {file, FileWatch(file), std::make_shared<const Scene>(std::move(header))};
   return saved;
 }

@@ -125,6 +125,8 @@ struct ReadRequest {
   std::function<void(const std::filesystem::path&, const std::string& reason)> unreadable = {};
   std::optional<std::uint64_t> max_splats = {};  // ReadOptions::max_splats
   std::optional<std::size_t> lod = {};           // ReadOptions::lod of the files in `paths`
+  /// For read_again(): the index of a file, and the level of detail that it changes to.
+  std::optional<std::pair<std::size_t, std::size_t>> level = {};
 };
 
 /// The layers of all files, in one scene (merged() in scene/scene.hpp). Throws InputError, and

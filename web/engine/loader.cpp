@@ -125,10 +125,11 @@ struct TooManySplats {
 /// {"folder", "paths", "memory" or "max_splats", "lod"?, "up"?, "elsewhere"}: reads any scene from
 /// the file system of this instance, and turns it upright if `up` is another axis. Returns its
 /// description; {"offer": {"splats", "bytes", "fitting"}} if its splats need more than `memory`;
-/// null if another program may read it (`elsewhere`) and this one does not recognise it.
+/// null if another program may read it (`elsewhere`) and this one does not.
 Json read(Engine& engine, const Json& arguments) {
   forget(engine);  // a preview
-  if (arguments.at("elsewhere").get<bool>() && !is_scene(scene_path(arguments))) return nullptr;
+  const bool elsewhere = arguments.at("elsewhere").get<bool>();
+  if (elsewhere && !is_scene(scene_path(arguments))) return nullptr;
   ReadOptions options = read_options(arguments);
   options.progress = report_progress;
   EarlyTexels early = std::exchange(engine.early_texels, {});
@@ -143,6 +144,9 @@ Json read(Engine& engine, const Json& arguments) {
     if (const auto up = arguments.find("up"); up != arguments.end())
       turn_upright(scene, glm::vec3(vector_of(*up)));
     return take(engine, std::move(scene));
+  } catch (const ReadElsewhere&) {
+    if (!elsewhere) throw;
+    return nullptr;
   } catch (const TooManySplats& many) {
     const double bytes = load_bytes(double(many.splats), double(many.bytes));
     const double fitting = arguments.at("memory").get<double>() / bytes * double(many.splats);

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/decimal_text.hpp"
 #include "base/error.hpp"
 #include "camera/capture.hpp"
 #include "camera/recorded_path.hpp"
@@ -77,6 +78,7 @@ Json facts(Engine& engine, const Json&) {
   const Renderer* const renderer = engine.page().renderer();
   Json plan = Json::array();
   std::size_t drawn = 0, device_bytes = 0;
+  bool by_processor = false;
   if (renderer) {
     for (const std::shared_ptr<LayerPlan>& layer : renderer->plan().layers) {
       const auto* soup = std::get_if<SoupPlan>(layer.get());
@@ -84,8 +86,26 @@ Json facts(Engine& engine, const Json&) {
     }
     plan = describe(renderer->plan());
     device_bytes = renderer->device_bytes();
+    // As in the window: less than triangles beside them would take.
+    by_processor = renderer->plan().splats_in_tiles && device_bytes < 50'000;
   }
-  return object({{"plan", plan}, {"drawn", drawn}, {"device_bytes", device_bytes}});
+  return object({{"plan", plan},
+                 {"drawn", drawn},
+                 {"device_bytes", device_bytes},
+                 {"by_processor", by_processor}});
+}
+
+/// The box around all layers, and its extent, as texts: the page shows the digits of the window.
+Json box(Engine& engine, const Json&) {
+  const auto& layers = engine.page().document().layers;
+  const Subject box = subject_of(std::vector<LayerPlace>(layers.begin(), layers.end()), {});
+  const auto joined = [](const glm::dvec3& v, const std::string& between) {
+    return short_decimal(v.x, 4) + between + short_decimal(v.y, 4) + between +
+           short_decimal(v.z, 4);
+  };
+  return object({{"extent", joined(box.high - box.low, " \u00d7 ")},
+                 {"low", joined(box.low, ", ")},
+                 {"high", joined(box.high, ", ")}});
 }
 
 // -- the document -------------------------------------------------------------------------------
@@ -316,6 +336,7 @@ Commands viewer_commands() {
       {"show", does(show)},
       {"clear", does([](Engine& engine, const Json&) { clear(engine); })},
       {"facts", facts},
+      {"box", box},
 
       {"layers", layers},
       {"set_layer", does(set_layer)},

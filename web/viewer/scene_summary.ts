@@ -9,6 +9,7 @@ export interface ShownFacts {
   /** Number of drawn triangles and splats. */
   readonly drawn: number;
   readonly device_bytes: number;
+  readonly by_processor: boolean;
 }
 
 export const lowerLevelSentence = (level: number) =>
@@ -50,6 +51,7 @@ export function sceneSummary(first: SceneDescription, sources: readonly SceneDes
     debugViews: debugViewsOf(sources),
     featureCount: Math.min(...sources.map(({ feature_count }) => feature_count)),
     deviceBytes: facts.device_bytes,
+    splatsByProcessor: facts.by_processor,
     detail: sources.length === 1 && first.levels.length > 1 ? { splats: first.levels, level: first.lod } : null,
   };
 }

@@ -76,6 +76,8 @@ export interface SceneSummary {
   readonly featureCount: number;
   /** Size of its buffers and textures on the device, in bytes. */
   readonly deviceBytes: number;
+  /** Whether nothing is drawn but splats, in tiles, by the processor: they take no memory of the device. */
+  readonly splatsByProcessor: boolean;
   /** Of a streamed scene without layers from elsewhere: its splats by level of detail, the finest first, and the shown level. */
   readonly detail: { readonly splats: readonly number[]; readonly level: number } | null;
 }
@@ -112,6 +114,15 @@ export interface SceneLayer {
   /** The argument of `load` or `addLayers`, and the layer's number in it, from 0. */
   readonly source: SceneSource;
   readonly sourceLayer: number;
+}
+
+/** The box around all layers, in world units with four digits. Splats that are far from all others do not count. */
+export interface SceneBox {
+  /** Along x, y and z: "2.1 × 3 × 0.75". */
+  readonly extent: string;
+  /** Lowest and highest corner: "-1, 0, 2.5". */
+  readonly low: string;
+  readonly high: string;
 }
 
 /** What the user can undo: the steps since the scene was opened. */
@@ -268,6 +279,8 @@ export interface Viewer {
   // Layers. A loaded scene has at least one. Background, up axis and cameras stay those of the loaded scene.
 
   readonly layers: readonly SceneLayer[];
+  /** Null without a scene. */
+  readonly box: SceneBox | null;
   /** Adds the layers of another source after the present ones, together, and resolves to them; the view stays. Without
    *  a scene it loads the source. Several calls run one after the other; `load`, `clear` and the signal
    *  cancel them. A layer that the device's memory cannot hold is not added: a notice names it and its

@@ -20,7 +20,7 @@ import {
 } from './scene_summary.js';
 import {
   maxLayers, ViewerError, writtenFormats, type Assets, type FrameStats, type LegendEntry, type Matrix, type NamedView,
-  type NavigationMode, type Placement, type Resolution, type SceneLayer, type SceneSource, type SceneSummary, type SplatOffer,
+  type NavigationMode, type Placement, type Resolution, type SceneBox, type SceneLayer, type SceneSource, type SceneSummary, type SplatOffer,
   type Steps, type Tour, type Vec3, type Viewer, type ViewerEvents, type ViewerOptions, type ViewPose, type WrittenFormat, type WrittenScene,
 } from './types.js';
 import { pageWith, writeFile } from './writing.js';
@@ -445,6 +445,8 @@ class CanvasViewer implements Viewer {
       return { ...layer, source: part.source, sourceLayer: index };
     });
   }
+
+  get box(): SceneBox | null { return this.shown && this.engine.call<SceneBox>('box'); }
 
   /** Runs `what` after earlier loads, additions, steps and debug views. load(), clear() and the signal cancel it. */
   private inTurn<T>({ signal }: Cancelling, what: () => T | Promise<T>): Promise<T> {

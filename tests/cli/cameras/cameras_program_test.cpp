@@ -87,8 +87,9 @@ TEST_F(Photographs, InsideADatasetAreNotSearchedAgain) {
   const ChildResult result =
       run(with_stand_in({"train", "my photos", "-o", "scene.glb", "--steps", "1"}));
   EXPECT_EQ(result.exit_code, 3);
-  EXPECT_THAT(result.err, testing::HasSubstr("tureen train " + folder.string() + " uses these"));
-  EXPECT_THAT(result.err, testing::HasSubstr("tureen cameras 'my photos' finds others"));
+  EXPECT_THAT(result.err,
+              testing::HasSubstr("tureen train " + folder.string() + " trains from it"));
+  EXPECT_THAT(result.err, testing::HasSubstr("tureen cameras 'my photos' finds cameras"));
   EXPECT_FALSE(exists("calls"));
   EXPECT_FALSE(exists("scene.dataset"));
 }

@@ -19,24 +19,32 @@ export class SceneSection {
       this.showNotes();
     });
     loading.onBegin(() => { this.notices = []; });  // notices of the previous scene
+    viewer.on('layers', () => this.showFacts());  // a moved layer changes the box
     this.show(viewer.scene);
   }
 
   private show(scene: SceneSummary | null): void {
     block('scene-title').textContent = scene ? this.title(scene) : '';
     document.title = scene ? `${this.title(scene)} · Tureen` : 'Tureen';
-    fillFacts(block('facts'), scene ? [
-      ['Name', scene.name],
-      ['Source', scene.source || null],
-      ['Size', primitivesText(scene)],
-      ['Appearance', scene.appearance],
-      ['GPU memory', bytesText(scene.deviceBytes)],
-    ] : [['Name', 'no scene is open']]);
+    this.showFacts();
     const detail = scene?.detail ?? null;
     block('detail-part').hidden = detail === null;
     select('detail').replaceChildren(...(detail?.splats ?? []).map((splats, level) =>
       make('option', { value: level, selected: level === detail!.level }, `${level}: ${countText(splats)} splats`)));
     this.showNotes();
+  }
+
+  private showFacts(): void {
+    const { scene, box } = this.viewer;
+    fillFacts(block('facts'), scene && box ? [
+      ['Name', scene.name],
+      ['Source', scene.source || null],
+      ['Size', primitivesText(scene)],
+      ['Extent', box.extent],
+      ['Box', `${box.low} to ${box.high}`],
+      ['Appearance', scene.appearance],
+      ['GPU memory', scene.splatsByProcessor ? 'none: the processor draws the splats' : bytesText(scene.deviceBytes)],
+    ] : [['Name', 'no scene is open']]);
   }
 
   /** "soup", "soup and 2 more" */
