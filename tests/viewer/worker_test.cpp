@@ -126,6 +126,18 @@ TEST_F(WorkerTest, FailuresAreTold) {
   EXPECT_THAT(told, ElementsAre(HasSubstr("no such file"), Ne("failed: std::bad_alloc")));
 }
 
+TEST_F(WorkerTest, KnowsWhenTheProgressChanged) {
+  Worker worker(window, 0);
+  worker.start(endless(JobKind::scene, "half done"));
+  wait_for_start();
+  const auto moved = [&] { return worker.status()->moved; };
+  while (moved() == 0) std::this_thread::yield();
+  const double first = moved();
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  EXPECT_EQ(moved(), first) << "the progress is the same as before";
+  EXPECT_GT(worker.status()->seconds, first);
+}
+
 TEST_F(WorkerTest, EndsWhileItWorks) {
   Worker worker(window, 0);
   worker.start(endless(JobKind::scene, "first"));
