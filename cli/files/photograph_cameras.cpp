@@ -94,7 +94,7 @@ double scale_for_training(const std::filesystem::path& dataset) {
 
 CameraOutcome search_cameras(const CameraOptions& options) {
   Reported reported("cameras");
-  const CameraOutcome outcome = [&] {
+  CameraOutcome outcome = [&] {
     try {
       return find_cameras(options, reported.events);
     } catch (const Interrupted&) {
