@@ -37,7 +37,7 @@ set(limits
   "code runtime 7970: plan, passes, debug views"
   "code trainer 13625: four methods, CPU and CUDA"
   "code jobs 7995: work that the programs share, the whole of a training run with its forecast, and cameras for photographs; what measures and reports grows no further"
-  "code viewer 8720: the window, levels of detail, its gizmo (450), background by name, forecast, search for cameras (45) and clicks by name"
+  "code viewer 8725: the window, levels of detail, its gizmo (450), background by name, forecast, search for cameras (45) and clicks by name"
   "code web 9370: the page: its viewer, all formats on demand, files for the user, tours"
   "code cli 7180: the command line computes nothing"
   "code examples 1420: one scene and its dataset"

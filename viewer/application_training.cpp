@@ -71,8 +71,9 @@ void Application::carry_out(const OfferTraining& request) {
     choice.values["minutes"] = "15";
     const double scale = moderate_scale(state_.photographs->full.cameras);
     choice.scale = scale < 1 ? short_decimal(scale, 4) : "";
-  } else if (state_.training_choice.scale.size() > std::size("0.125") - 1) {
-    state_.training_choice.scale.clear();  // moderate_scale() of other photographs
+    choice.scale_is_preset = true;
+  } else if (std::exchange(state_.training_choice.scale_is_preset, false)) {
+    state_.training_choice.scale.clear();  // it was that of other photographs
   }
   state_.scene_to_train = new_trained_scene(state_.photographs->path).string();
   measure_training();

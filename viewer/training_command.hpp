@@ -41,6 +41,7 @@ struct TrainingChoice {
   const TrainingMethodInfo* method = training_methods().front();
   std::string steps = {};
   std::string scale = {};                          // of the photographs, as --scale takes it
+  bool scale_is_preset = false;                    // moderate_scale(), not chosen by the user
   std::map<std::string, std::string> values = {};  // by MethodOption::name; of a flag, any text
 };
 

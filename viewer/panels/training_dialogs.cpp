@@ -49,7 +49,10 @@ void size_field(TrainingChoice& choice) {
   if (ImGui::BeginCombo("##scale", shown.c_str())) {
     if (chosen == std::end(scales)) list_item(shown, true);
     for (const auto& [scale, words] : scales)
-      if (list_item(words, scale == choice.scale)) choice.scale = scale;
+      if (list_item(words, scale == choice.scale)) {
+        choice.scale = scale;
+        choice.scale_is_preset = false;
+      }
     ImGui::EndCombo();
   }
   tip("Scale of the photographs. Smaller ones allow more steps in the same time.");
