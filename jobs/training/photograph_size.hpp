@@ -65,7 +65,8 @@ std::optional<TrainingForecast> forecast_of(const TrainingLength& length,
                                             const TrainingMethodInfo& method,
                                             double seconds_per_pixel);
 /// A warning if `steps` are too few for a sharp scene: fewer than the photographs, or than a
-/// quarter of the number from which larger photographs pay (TrainingMethodInfo::least_steps).
+/// quarter of the number that makes larger photographs worthwhile
+/// (TrainingMethodInfo::least_steps).
 std::optional<OwnFact> too_few_steps(double steps, const FullPhotographs& full,
                                      const TrainingMethodInfo& method);
 

@@ -42,7 +42,7 @@ struct WindowParameters
 
   /// For splats_in_bytes(). On held-out training views of lego at 200x200, degree 0 has 1.1, 0.7
   /// and 0.2 dB more than degree 1 in 0.4, 1 and 2.4 MB, and degree 1 has 1.9, 1.3 and 0.6 dB more
-  /// than degree 2: extrapolated to no difference.
+  /// than degree 2. Extrapolated, the differences vanish at these numbers of splats.
   static constexpr std::array<std::uint64_t, 3> least_of_degree{1, 40000, 40000};
 
   /// Computes the drawn values of splat `i`.
